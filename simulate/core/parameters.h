@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Fitted interaction parameters and how sure they are: the file parameters.toml.
+
+#ifndef FLOCKLIFT_SIMULATE_CORE_PARAMETERS_H_
+#define FLOCKLIFT_SIMULATE_CORE_PARAMETERS_H_
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "simulate/core/scene.h"
+
+namespace flocklift {
+
+// Joint posterior of the parameters that were free; all vectors have the length of `free`,
+// `correlation` is square, row-major.
+struct ParameterPosterior {
+  std::vector<std::string> free;
+  std::vector<double> sd;
+  std::vector<double> correlation;
+  std::vector<bool> determined;  // do the data say anything about it?
+};
+
+struct Parameters {
+  ModelSpec model;
+  ParameterPosterior posterior;
+};
+
+Parameters ReadParameters(const std::filesystem::path& path);
+Parameters ParseParameters(std::string_view text, const std::string& name);
+void WriteParameters(const std::filesystem::path& path, const Parameters& parameters);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_SIMULATE_CORE_PARAMETERS_H_
