@@ -31,6 +31,13 @@ struct ModelSpec {
   std::string name;
   std::map<std::string, double> parameters;
   std::string where;  // "FILE:LINE" for messages; empty when not read from a file
+  std::map<std::string, std::string> where_of;  // the same for each parameter
+
+  // What a message about a parameter starts with.
+  const std::string& WhereOf(const std::string& parameter) const {
+    const auto found = where_of.find(parameter);
+    return found == where_of.end() ? where : found->second;
+  }
 };
 
 struct SpeciesSpec {
@@ -43,24 +50,24 @@ struct SpeciesSpec {
   double speed = 10;              // mean cruising speed [m/s]
   double speed_spread = 0.08;     // relative sd of the individuals' cruising speed
   std::optional<Region> start;    // default: the middle half of the box
-  ModelSpec model{.name = "boids", .parameters = {}, .where = {}};
+  ModelSpec model{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
 };
 
 // A point that attracts; it may move on a circle about `position` in the horizontal plane.
 struct GoalSpec {
   std::string species;  // empty: all
   Vec3d position;
-  double radius = 0;    // of the circle [m]
-  double period = 0;    // of one turn [s]; 0: it stands still
-  double weight = 1;    // [1/s^2]
+  double radius = 0;  // of the circle [m]
+  double period = 0;  // of one turn [s]; 0: it stands still
+  double weight = 1;  // [1/s^2]
 };
 
 struct PredatorSpec {
   int count = 1;
-  double speed = 12;          // [m/s]
-  double fear_radius = 10;    // animals nearer than this flee [m]
-  double fear_weight = 1;     // strength of fleeing [m/s^2]
-  double turn_interval = 2;   // a new random direction about every so often [s]
+  double speed = 12;         // [m/s]
+  double fear_radius = 10;   // animals nearer than this flee [m]
+  double fear_weight = 1;    // strength of fleeing [m/s^2]
+  double turn_interval = 2;  // a new random direction about every so often [s]
 };
 
 struct CameraSpec {
@@ -82,11 +89,11 @@ struct RenderSpec {
 struct Scene {
   int version = 1;
   std::uint64_t seed = 1;
-  double duration = 10;  // [s]
-  double fps = 30;       // [1/s]
-  int substeps = 4;      // integration steps a frame
-  int dimensions = 3;    // 2: z stays 0
-  double warmup = 0;     // simulated before the first frame kept [s]
+  double duration = 10;                     // [s]
+  double fps = 30;                          // [1/s]
+  int substeps = 4;                         // integration steps a frame
+  int dimensions = 3;                       // 2: z stays 0
+  double warmup = 0;                        // simulated before the first frame kept [s]
   Region box{{-20, -20, 2}, {20, 20, 22}};  // soft walls [m]
   std::vector<SpeciesSpec> species;
   std::vector<GoalSpec> goals;
