@@ -6,16 +6,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <thread>
 
-#include "simulate/core/io.h"
+#include "simulate/core/fps.h"
+#include "simulate/core/parallel_for.h"
 
 namespace flocklift {
 
-int CommonOptions::ThreadCount() const {
-  if (threads > 0) return threads;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
+int CommonOptions::ThreadCount() const { return ResolveThreads(threads); }
 
 void AddCommonFlags(CLI::App& command, CommonOptions& options, CommonFlags flags) {
   const std::string group = "Common";
