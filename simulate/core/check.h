@@ -25,7 +25,7 @@ inline void Check(bool condition, const std::string& message) {
 class InputError : public std::runtime_error {
  public:
   InputError(const std::string& file, long line, const std::string& fault, const std::string& mend)
-      : std::runtime_error(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + fault +
+      : std::runtime_error(file + (line > 0 ? ':' + std::to_string(line) : "") + ": " + fault +
                            "; " + mend) {}
 };
 
