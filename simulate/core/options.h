@@ -38,10 +38,13 @@ struct RangeChecker {
                   std::string_view /*help*/) {
     if constexpr (std::is_arithmetic_v<T>) {
       const double number = static_cast<double>(value);
-      Check(number >= range.low && number <= range.high,
-            "option " + std::string(name) + " is " + std::to_string(value) + ", allowed are " +
-                std::to_string(range.low) + " to " + std::to_string(range.high) +
-                (unit.empty() ? "" : " " + std::string(unit)));
+      if (number >= range.low && number <= range.high) return;
+      std::string message = "option ";
+      message.append(name).append(" is ").append(std::to_string(value));
+      message.append(", allowed are ").append(std::to_string(range.low));
+      message.append(" to ").append(std::to_string(range.high));
+      if (!unit.empty()) message.append(" ").append(unit);
+      Check(false, message);
     }
   }
 };
