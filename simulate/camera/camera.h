@@ -21,20 +21,31 @@ namespace flocklift {
 struct Intrinsics {
   double fx = 1, fy = 1, cx = 0, cy = 0;
   std::array<double, 12> distortion{};
+
+  friend bool operator==(const Intrinsics&, const Intrinsics&) = default;
 };
 
 struct Camera {
   int width = 0, height = 0;  // [px]
   Intrinsics intrinsics;
-  std::optional<double> fps;               // [1/s]
-  std::optional<Rigid3d> cam_from_world;   // absent: the world is the camera's own axes, and
-                                           // gravity is unknown
+  std::optional<double> fps;                      // [1/s]
+  std::optional<Rigid3d> cam_from_world;          // absent: the world is the camera's own axes, and
+                                                  // gravity is unknown
   std::vector<Rigid3d> cam_from_world_per_frame;  // a moving camera: entry k is frame k + 1
 
   // Extrinsics in `frame` (from 1): per frame where given, else the fixed ones, else the identity.
+  // A moving camera without a fixed pose must know the frame.
   Rigid3d CamFromWorld(int frame) const;
   bool KnowsGravity() const { return cam_from_world || !cam_from_world_per_frame.empty(); }
+  // Is the point on the sensor, edges of the outermost pixels included?
+  bool Sees(const Vec2d& pixel) const;
+
+  friend bool operator==(const Camera&, const Camera&) = default;
 };
+
+// A camera without distortion and pose: square pixels, principal point in the middle, horizontal
+// field of view over the full width, fx = (width / 2) / tan(fov / 2). fov in (0, 180) degrees.
+Camera PinholeCamera(double horizontal_fov_deg, int width, int height);
 
 }  // namespace flocklift
 

@@ -23,13 +23,11 @@ template <typename T>
 Vec2<T> ProjectNormalized(const Intrinsics& k, const Vec2<T>& n) {
   const auto& d = k.distortion;
   const T r2 = n.x * n.x + n.y * n.y;
-  const T radial = (1.0 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]))) /
-                   (1.0 + r2 * (d[5] + r2 * (d[6] + r2 * d[7])));
+  const T radial =
+      (1.0 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]))) / (1.0 + r2 * (d[5] + r2 * (d[6] + r2 * d[7])));
   const T xy2 = 2.0 * n.x * n.y;
-  const T x = n.x * radial + d[2] * xy2 + d[3] * (r2 + 2.0 * n.x * n.x) +
-              r2 * (d[8] + r2 * d[9]);
-  const T y = n.y * radial + d[2] * (r2 + 2.0 * n.y * n.y) + d[3] * xy2 +
-              r2 * (d[10] + r2 * d[11]);
+  const T x = n.x * radial + d[2] * xy2 + d[3] * (r2 + 2.0 * n.x * n.x) + r2 * (d[8] + r2 * d[9]);
+  const T y = n.y * radial + d[2] * (r2 + 2.0 * n.y * n.y) + d[3] * xy2 + r2 * (d[10] + r2 * d[11]);
   return {k.fx * x + k.cx, k.fy * y + k.cy};
 }
 
@@ -40,9 +38,15 @@ Vec2<T> Project(const Intrinsics& k, const Vec3<T>& point_in_cam) {
       k, Vec2<T>{point_in_cam.x / point_in_cam.z, point_in_cam.y / point_in_cam.z});
 }
 
-// Normalised coordinates (x/z, y/z) of the ray through an image point: Newton's method on
-// ProjectNormalized, to 1e-12 px. Nothing where the distortion folds and no ray exists.
+// Normalised coordinates (x/z, y/z) of the ray through an image point: the inverse of
+// ProjectNormalized, by Newton's method to the precision of a double. Strong distortion folds the
+// plane, and several rays may then meet one pixel: returned is the one that connects to the optical
+// axis without crossing a fold, and nothing where there is none.
 std::optional<Vec2d> RayThroughPixel(const Intrinsics& k, const Vec2d& pixel);
+
+// Image point [px] of a point in the camera frame, if the camera sees it: in front, on the sensor,
+// and not brought there by a fold of the distortion (which Project does not notice).
+std::optional<Vec2d> ProjectVisible(const Camera& camera, const Vec3d& point_in_cam);
 
 }  // namespace flocklift
 
