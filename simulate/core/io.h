@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,10 @@
 #include "simulate/core/trajectory.h"
 
 namespace flocklift {
+
+namespace internal {
+class TableWriter;
+}
 
 // ---- tracks: MOTChallenge, `frame,id,left,top,width,height,confidence,-1,-1,-1`, no header ------
 
@@ -29,7 +35,8 @@ struct TrackRow {
   Detection detection;
 };
 
-// Calls `take` for every row as it is read: bounded memory. Returns the `# fps=` comment, if any.
+// Calls `take` for every row as it is read: bounded memory, hence no check that a (frame, id)
+// occurs only once. Returns the `# fps=` comment, if any.
 std::optional<double> ForEachTrackRow(const std::filesystem::path& path,
                                       const std::function<void(const TrackRow&)>& take);
 std::optional<double> ForEachTrackRow(std::istream& stream, const std::string& name,
@@ -37,7 +44,20 @@ std::optional<double> ForEachTrackRow(std::istream& stream, const std::string& n
 
 Tracks ReadTracks(const std::filesystem::path& path);
 Tracks ReadTracks(std::istream& stream, const std::string& name);
+// By frame, then id.
 void WriteTracks(const std::filesystem::path& path, const Tracks& tracks);
+
+// Writes rows as they come: bounded memory. Without Commit no file appears.
+class TrackWriter {
+ public:
+  TrackWriter(const std::filesystem::path& path, std::optional<double> fps);
+  ~TrackWriter();
+  void Add(Id id, const Detection& detection);
+  void Commit();
+
+ private:
+  std::unique_ptr<internal::TableWriter> writer_;
+};
 
 // As tracks, id -1; frames that have no detection are not listed.
 std::vector<DetectionFrame> ReadDetections(const std::filesystem::path& path);
@@ -56,9 +76,25 @@ void WriteShapes(const std::filesystem::path& path, const Tracks& tracks);
 
 Trajectories ReadTrajectories(const std::filesystem::path& path);
 Trajectories ReadTrajectories(std::istream& stream, const std::string& name);
+// By frame, then id; the optional columns that `trajectories` says it has.
 void WriteTrajectories(const std::filesystem::path& path, const Trajectories& trajectories);
 
-// ---- anchors: `frame,id,x,y,z,sd`, with header ---------------------------------------------------
+// Writes rows as they come: bounded memory. Without Commit no file appears. `like` tells fps and
+// the optional columns; its points are not written.
+class TrajectoryWriter {
+ public:
+  TrajectoryWriter(const std::filesystem::path& path, const Trajectories& like);
+  ~TrajectoryWriter();
+  void Add(Id id, const TrajectoryPoint& point);
+  void Commit();
+
+ private:
+  bool has_velocity_, has_orientation_, has_sd_depth_;
+  std::unique_ptr<internal::TableWriter> writer_;
+};
+
+// ---- anchors: `frame,id,x,y,z,sd`, with header
+// ---------------------------------------------------
 
 // A position that somebody knows, in the world frame, with its standard deviation [m].
 struct Anchor {
@@ -70,18 +106,19 @@ struct Anchor {
 std::vector<Anchor> ReadAnchors(const std::filesystem::path& path);
 std::vector<Anchor> ReadAnchors(std::istream& stream, const std::string& name);
 
-// ---- corrections: one operation a line, `#` starts a comment -------------------------------------
+// ---- corrections: one operation a line, `#` starts a comment
+// -------------------------------------
 
 // A person's edit of tracks. Which fields mean something depends on the kind.
 struct Correction {
   enum class Kind { kSwap, kSplit, kJoin, kDelete, kPin, kAdd };
   Kind kind = Kind::kSwap;
   Id id = 0;
-  Id other_id = 0;         // swap, join
-  int first_frame = 0;     // swap, split, pin, add; delete: 0 means all frames
-  int last_frame = 0;      // delete
-  Vec2d point;             // pin, add [px]
-  int line = 0;            // of the file, for messages
+  Id other_id = 0;      // swap, join
+  int first_frame = 0;  // swap, split, pin, add; delete: 0 means all frames
+  int last_frame = 0;   // delete
+  Vec2d point;          // pin, add [px]
+  int line = 0;         // of the file, for messages
 };
 std::vector<Correction> ReadCorrections(const std::filesystem::path& path);
 std::vector<Correction> ReadCorrections(std::istream& stream, const std::string& name);
