@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Trajectories as a regression needs them: positions by animal and frame with short gaps bridged,
+// and two estimates of the flock's state at a frame, from positions alone (dt = 1 / fps):
+//   centred  x = x_k,  v = (x_{k+1} - x_{k-1}) / (2 dt) - (h / 2) (x_{k+1} - 2 x_k + x_{k-1}) /
+//   dt^2
+//            where h is the step of a semi-implicit Euler engine, x_{n+1} = x_n + h v_{n+1}, whose
+//            velocity belongs half a step before its position; h = 0 for continuous time
+//   past     the straight line of least squares through frames k - span .. k, at frame k: it knows
+//            nothing of later frames
+// World frame, metres, seconds.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_FIT_OBSERVED_FLOCK_H_
+#define FLOCKLIFT_RECONSTRUCT_FIT_OBSERVED_FLOCK_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "simulate/core/trajectory.h"
+
+namespace flocklift {
+
+class ObservedFlock {
+ public:
+  // Gaps of up to `bridged_gap` missing frames are filled with a cubic through the frames beside
+  // them; longer ones stay gaps.
+  ObservedFlock(const Trajectories& trajectories, double fps, int bridged_gap);
+
+  struct State {
+    std::vector<int> animal;  // index into the trajectories, increasing
+    std::vector<Vec3d> position, velocity;
+
+    // Index k with animal[k] == wanted, or -1.
+    int Find(int wanted) const;
+  };
+
+  FrameSpan span() const { return span_; }
+  int animals() const { return static_cast<int>(tracks_.size()); }
+  double dt() const { return dt_; }
+
+  // Is there a position (Has), and was it in the file, not bridged (Measured)?
+  bool Has(int animal, int frame) const { return Flag(animal, frame) != 0; }
+  bool Measured(int animal, int frame) const { return Flag(animal, frame) == kMeasured; }
+  const Vec3d& Position(int animal, int frame) const;
+  double SdDepth(int animal, int frame) const;  // 0 where bridged
+
+  // An animal at the end of a run of frames has the velocity of its last two; one that is alone in
+  // its run is left out.
+  State Centred(int frame, double engine_step) const;
+  State Past(int frame, int span) const;
+
+ private:
+  static constexpr std::uint8_t kBridged = 1, kMeasured = 2;
+  struct Track {
+    int first = 0;
+    std::vector<Vec3d> position;
+    std::vector<std::uint8_t> flag;
+    std::vector<double> sd_depth;  // empty when the file has none
+  };
+  std::uint8_t Flag(int animal, int frame) const;
+  const std::vector<int>& Alive(int frame) const;  // animals whose tracks span the frame
+
+  double dt_;
+  FrameSpan span_;
+  std::vector<Track> tracks_;
+  std::vector<std::vector<int>> alive_;  // per frame of the span
+};
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_FIT_OBSERVED_FLOCK_H_
