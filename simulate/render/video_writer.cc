@@ -7,11 +7,9 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/opt.h>
-#include <libswscale/swscale.h>
 }
 
 #include <condition_variable>
-#include <cstring>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -21,6 +19,7 @@ extern "C" {
 #include "simulate/core/atomic_file.h"
 #include "simulate/core/check.h"
 #include "simulate/core/options.h"
+#include "simulate/render/yuv420.h"
 
 namespace flocklift {
 namespace {
@@ -35,9 +34,6 @@ struct FreeFrame {
 };
 struct FreePacket {
   void operator()(AVPacket* p) const { av_packet_free(&p); }
-};
-struct FreeScaler {
-  void operator()(SwsContext* p) const { sws_freeContext(p); }
 };
 struct FreeMuxer {
   void operator()(AVFormatContext* p) const {
@@ -145,6 +141,9 @@ class VideoWriter::Encoder {
     if (codec->id == AV_CODEC_ID_H264) {
       Must(av_opt_set(c->priv_data, "preset", options.preset.c_str(), 0), "option preset");
       Must(av_opt_set_int(c->priv_data, "crf", options.crf, 0), "option crf");
+      // Macroblock trees read memory that nobody wrote (x264 164 with AVX-512) and differ between
+      // instruction sets: without them the same frames give the same bytes.
+      Must(av_opt_set_int(c->priv_data, "mbtree", 0, 0), "option mbtree");
     } else {
       c->flags |= AV_CODEC_FLAG_QSCALE;
       c->global_quality = 2 * FF_QP2LAMBDA;
@@ -159,10 +158,6 @@ class VideoWriter::Encoder {
     frame_->height = c->height;
     Must(av_frame_get_buffer(frame_.get(), 0), "out of memory");
     packet_.reset(av_packet_alloc());
-    scaler_.reset(sws_getContext(c->width, c->height, AV_PIX_FMT_BGR24, c->width, c->height,
-                                 c->pix_fmt, SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT,
-                                 nullptr, nullptr, nullptr));
-    if (!scaler_) throw std::runtime_error(path_.string() + ": no conversion to yuv420p");
   }
 
   void OpenMuxer() {
@@ -212,20 +207,12 @@ class VideoWriter::Encoder {
 
   void Convert(const Image& image) {
     Must(av_frame_make_writable(frame_.get()), "out of memory");
-    const std::uint8_t* source = image.bgr.data();
-    int stride = 3 * width_;
-    if (codec_->width != width_ || codec_->height != height_) {
-      stride = 3 * codec_->width;
-      padded_.resize(static_cast<std::size_t>(stride) * codec_->height);
-      for (int v = 0; v < codec_->height; ++v) {
-        const std::uint8_t* row = image.Row(std::min(v, height_ - 1));
-        std::uint8_t* out = padded_.data() + static_cast<std::size_t>(v) * stride;
-        std::memcpy(out, row, 3 * static_cast<std::size_t>(width_));
-        if (codec_->width > width_) std::memcpy(out + 3 * width_, row + 3 * (width_ - 1), 3);
-      }
-      source = padded_.data();
+    Yuv420View view;
+    for (int k = 0; k < 3; ++k) {
+      view.plane[k] = frame_->data[k];
+      view.stride[k] = frame_->linesize[k];
     }
-    sws_scale(scaler_.get(), &source, &stride, 0, codec_->height, frame_->data, frame_->linesize);
+    ConvertToYuv420(image, view);
     frame_->pts = frames_++;
   }
 
@@ -250,10 +237,8 @@ class VideoWriter::Encoder {
   std::unique_ptr<AVFormatContext, FreeMuxer> muxer_;
   std::unique_ptr<AVFrame, FreeFrame> frame_;
   std::unique_ptr<AVPacket, FreePacket> packet_;
-  std::unique_ptr<SwsContext, FreeScaler> scaler_;
   AVStream* stream_ = nullptr;  // owned by muxer_
   std::int64_t frames_ = 0;
-  std::vector<std::uint8_t> padded_;
 
   std::mutex mutex_;
   std::condition_variable changed_;
