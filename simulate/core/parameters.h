@@ -19,7 +19,7 @@ namespace flocklift {
 // `correlation` is square, row-major.
 struct ParameterPosterior {
   std::vector<std::string> free;
-  std::vector<double> sd;
+  std::vector<double> sd;  // infinite only where `determined` is false
   std::vector<double> correlation;
   std::vector<bool> determined;  // do the data say anything about it?
 };
@@ -29,8 +29,12 @@ struct Parameters {
   ParameterPosterior posterior;
 };
 
+// InputError with file, line and mend. Whether the model and its parameters exist is checked where
+// models are known (simulate/flock).
 Parameters ReadParameters(const std::filesystem::path& path);
 Parameters ParseParameters(std::string_view text, const std::string& name);
+// The file's text; numbers read back as the same double.
+std::string FormatParameters(const Parameters& parameters);
 void WriteParameters(const std::filesystem::path& path, const Parameters& parameters);
 
 }  // namespace flocklift

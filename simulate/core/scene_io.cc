@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/core/scene_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+#include "simulate/core/atomic_file.h"
+#include "simulate/core/check.h"
+#include "simulate/core/input_file.h"
+#include "simulate/core/settings.h"
+#include "simulate/core/table.h"
+#include "simulate/core/text.h"
+
+namespace flocklift {
+namespace {
+
+using internal::Limits;
+using internal::Settings;
+
+constexpr double kLongest = 86400;       // of any time: a day [s]
+constexpr double kLargestBody = 100;     // [m]
+constexpr double kFastest = 1000;        // [m/s]
+constexpr int kMostAnimals = 1'000'000;  // of a species
+constexpr int kWidestImage = 16384;      // [px]
+
+template <typename T>
+void ReadInteger(Settings* settings, std::string_view key, T* value, std::int64_t low,
+                 std::int64_t high) {
+  std::int64_t number = 0;
+  if (settings->Integer(key, &number, low, high)) *value = static_cast<T>(number);
+}
+
+void ReadSceneTable(const toml::table& table, const std::string& name, Scene* scene) {
+  Settings settings(table, name, "[scene]");
+  ReadInteger(&settings, "version", &scene->version, 1, std::numeric_limits<int>::max());
+  if (scene->version != 1) {
+    settings.Fail("version", fmt::format("the scene has schema version {}", scene->version),
+                  "this program reads version 1");
+  }
+  ReadInteger(&settings, "seed", &scene->seed, 0, std::numeric_limits<std::int64_t>::max());
+  settings.Number("duration", &scene->duration, Limits::Positive(kLongest));
+  settings.Fps("fps", &scene->fps);
+  ReadInteger(&settings, "substeps", &scene->substeps, 1, 1000);
+  ReadInteger(&settings, "dimensions", &scene->dimensions, 2, 3);
+  settings.Number("warmup", &scene->warmup, {0, kLongest});
+  const bool is_flat = scene->dimensions == 2;
+  if (!settings.Corners("box", &scene->box.low, &scene->box.high, is_flat) && is_flat) {
+    scene->box.low.z = scene->box.high.z = 0;
+  }
+  settings.FailUnknown();
+  const double frames = scene->duration * scene->fps;
+  if (!(frames >= 0.5 && frames <= internal::kMaxFrame)) {
+    settings.Fail("duration", fmt::format("duration times fps makes {:.3g} frames", frames),
+                  fmt::format("give 1 to {} frames", internal::kMaxFrame));
+  }
+}
+
+ModelSpec ReadModel(Settings* species) {
+  ModelSpec model = SpeciesSpec().model;
+  species->Text("model", &model.name);
+  model.where = species->Where("model");
+  if (const toml::table* parameters = species->FindTable("parameters")) {
+    Settings(*parameters, species->name(), "[species.parameters]")
+        .AllNumbers(&model.parameters, &model.where_of);
+  }
+  species->Refuse("force");
+  return model;
+}
+
+SpeciesSpec ReadSpecies(const toml::table& table, const std::string& name, bool is_flat) {
+  Settings settings(table, name, "[[species]]");
+  SpeciesSpec species;
+  settings.Text("name", &species.name);
+  ReadInteger(&settings, "count", &species.count, 1, kMostAnimals);
+  settings.Number("wingspan", &species.wingspan, Limits::Positive(kLargestBody));
+  settings.Number("wingspan_spread", &species.wingspan_spread, {0, 1});
+  settings.Number("body_length", &species.body_length, Limits::Positive(kLargestBody));
+  settings.Number("wingbeat_hz", &species.wingbeat_hz, {0, 1000});
+  settings.Number("speed", &species.speed, Limits::Positive(kFastest));
+  settings.Number("speed_spread", &species.speed_spread, {0, 1});
+  Region start;
+  if (settings.Corners("start", &start.low, &start.high, is_flat)) species.start = start;
+  species.model = ReadModel(&settings);
+  settings.FailUnknown();
+  return species;
+}
+
+GoalSpec ReadGoal(const toml::table& table, const std::string& name, const Scene& scene) {
+  Settings settings(table, name, "[[goal]]");
+  GoalSpec goal;
+  if (settings.Text("species", &goal.species)) {
+    std::vector<std::string> names;
+    for (const SpeciesSpec& species : scene.species) names.push_back(species.name);
+    settings.Text("species", &goal.species, names);
+  }
+  if (!settings.Vector("position", &goal.position, scene.dimensions == 2)) {
+    settings.FailMissing("position", "say where the goal is: position = [x, y, z]");
+  }
+  settings.Number("radius", &goal.radius, {0, 1e6});
+  settings.Number("period", &goal.period, {0, kLongest});
+  settings.Number("weight", &goal.weight, {0, 1e6});
+  settings.FailUnknown();
+  return goal;
+}
+
+PredatorSpec ReadPredator(const toml::table& table, const std::string& name) {
+  Settings settings(table, name, "[[predator]]");
+  PredatorSpec predator;
+  ReadInteger(&settings, "count", &predator.count, 1, 1000);
+  settings.Number("speed", &predator.speed, {0, kFastest});
+  settings.Number("fear_radius", &predator.fear_radius, Limits::Positive(1e6));
+  settings.Number("fear_weight", &predator.fear_weight, {0, 1e6});
+  settings.Number("turn_interval", &predator.turn_interval, Limits::Positive(kLongest));
+  settings.FailUnknown();
+  return predator;
+}
+
+void ReadImageSize(Settings* settings, CameraSpec* camera) {
+  const toml::array* const size = settings->FindArray("size");
+  if (size == nullptr) return;
+  const auto pixels = [&](std::size_t k) {
+    const toml::node* const node = size->size() == 2 ? size->get(k) : nullptr;
+    const std::int64_t value =
+        node != nullptr && node->is_integer() ? node->as_integer()->get() : 0;
+    if (value < 16 || value > kWidestImage) {
+      settings->Fail("size", "size in [camera] is no image size",
+                     fmt::format("give [width, height], each from 16 to {} pixels", kWidestImage));
+    }
+    return static_cast<int>(value);
+  };
+  camera->width = pixels(0);
+  camera->height = pixels(1);
+}
+
+CameraSpec ReadCameraSpec(const toml::table& table, const std::string& name) {
+  Settings settings(table, name, "[camera]");
+  CameraSpec camera;
+  std::string file;
+  if (settings.Text("file", &file)) {
+    if (table.size() > 1) {
+      settings.Fail("file", "[camera] has a file and other keys", "give one or the other");
+    }
+    if (file.empty()) settings.Fail("file", "file in [camera] is empty", "name a camera file");
+    camera.file = std::filesystem::path(name).parent_path() / file;
+  }
+  settings.Number("fov", &camera.fov_deg, {1, 170});
+  ReadImageSize(&settings, &camera);
+  settings.Vector("position", &camera.position, false);
+  settings.Vector("look_at", &camera.look_at, false);
+  settings.FailUnknown();
+  if (Norm(camera.look_at - camera.position) < 1e-6) {
+    settings.Fail("look_at", "the camera looks at its own position", "give another look_at");
+  }
+  return camera;
+}
+
+RenderSpec ReadRender(const toml::table& table, const std::string& name) {
+  Settings settings(table, name, "[render]");
+  RenderSpec render;
+  settings.Text("background", &render.background, {"plain", "sky", "clouds"});
+  settings.Number("noise", &render.noise, {0, 255});
+  settings.Number("blur", &render.blur, {0, 1});
+  settings.Number("haze", &render.haze, {0, 1e6});
+  settings.Number("cloud_speed", &render.cloud_speed_px, {-1000, 1000});
+  settings.FailUnknown();
+  return render;
+}
+
+std::string FormatVector(const Vec3d& v) {
+  return fmt::format("[{}, {}, {}]", internal::TomlNumber(v.x), internal::TomlNumber(v.y),
+                     internal::TomlNumber(v.z));
+}
+
+std::string FormatRegion(const Region& region) {
+  return fmt::format("[{}, {}]", FormatVector(region.low), FormatVector(region.high));
+}
+
+// Appends headings and `key = value` lines.
+class SceneText {
+ public:
+  void Heading(std::string_view heading) {
+    fmt::format_to(std::back_inserter(text_), "{}{}\n", text_.empty() ? "" : "\n", heading);
+  }
+  void Raw(std::string_view key, std::string_view value) {
+    fmt::format_to(std::back_inserter(text_), "{} = {}\n", key, value);
+  }
+  void Number(std::string_view key, double value) { Raw(key, internal::TomlNumber(value)); }
+  void Integer(std::string_view key, std::uint64_t value) { Raw(key, std::to_string(value)); }
+  void Text(std::string_view key, std::string_view value) { Raw(key, internal::TomlText(value)); }
+
+  std::string Take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+void Append(const SpeciesSpec& species, SceneText* out) {
+  out->Heading("[[species]]");
+  out->Text("name", species.name);
+  out->Integer("count", static_cast<std::uint64_t>(species.count));
+  out->Number("wingspan", species.wingspan);
+  out->Number("wingspan_spread", species.wingspan_spread);
+  out->Number("body_length", species.body_length);
+  out->Number("wingbeat_hz", species.wingbeat_hz);
+  out->Number("speed", species.speed);
+  out->Number("speed_spread", species.speed_spread);
+  if (species.start) out->Raw("start", FormatRegion(*species.start));
+  out->Text("model", species.model.name);
+  if (species.model.parameters.empty()) return;
+  out->Heading("[species.parameters]");
+  for (const auto& [key, value] : species.model.parameters) {
+    out->Number(internal::TomlKey(key), value);
+  }
+}
+
+void Append(const GoalSpec& goal, SceneText* out) {
+  out->Heading("[[goal]]");
+  if (!goal.species.empty()) out->Text("species", goal.species);
+  out->Raw("position", FormatVector(goal.position));
+  out->Number("radius", goal.radius);
+  out->Number("period", goal.period);
+  out->Number("weight", goal.weight);
+}
+
+void Append(const PredatorSpec& predator, SceneText* out) {
+  out->Heading("[[predator]]");
+  out->Integer("count", static_cast<std::uint64_t>(predator.count));
+  out->Number("speed", predator.speed);
+  out->Number("fear_radius", predator.fear_radius);
+  out->Number("fear_weight", predator.fear_weight);
+  out->Number("turn_interval", predator.turn_interval);
+}
+
+void Append(const CameraSpec& camera, SceneText* out) {
+  out->Heading("[camera]");
+  if (camera.file) {
+    out->Text("file", std::filesystem::absolute(*camera.file).string());
+    return;
+  }
+  out->Number("fov", camera.fov_deg);
+  out->Raw("size", fmt::format("[{}, {}]", camera.width, camera.height));
+  out->Raw("position", FormatVector(camera.position));
+  out->Raw("look_at", FormatVector(camera.look_at));
+}
+
+void Append(const RenderSpec& render, SceneText* out) {
+  out->Heading("[render]");
+  out->Text("background", render.background);
+  out->Number("noise", render.noise);
+  out->Number("blur", render.blur);
+  out->Number("haze", render.haze);
+  out->Number("cloud_speed", render.cloud_speed_px);
+}
+
+}  // namespace
+
+Scene ParseScene(std::string_view text, const std::string& name) {
+  const toml::table file = internal::ParseToml(text, name);
+  Settings settings(file, name, "the scene");
+  Scene scene;
+  for (const char* later : {"obstacle", "shape", "path", "event"}) settings.Refuse(later);
+  if (const toml::table* table = settings.FindTable("scene")) {
+    ReadSceneTable(*table, name, &scene);
+  }
+  const bool is_flat = scene.dimensions == 2;
+  settings.EachTable("species", [&](const toml::table& table) {
+    SpeciesSpec species = ReadSpecies(table, name, is_flat);
+    const bool repeats = std::any_of(scene.species.begin(), scene.species.end(),
+                                     [&](const SpeciesSpec& s) { return s.name == species.name; });
+    if (repeats) {
+      internal::FailAt(table, name, fmt::format("two species are called {}", Quoted(species.name)),
+                       "give each [[species]] a name of its own");
+    }
+    scene.species.push_back(std::move(species));
+  });
+  settings.EachTable("goal", [&](const toml::table& table) {
+    scene.goals.push_back(ReadGoal(table, name, scene));
+  });
+  settings.EachTable("predator", [&](const toml::table& table) {
+    scene.predators.push_back(ReadPredator(table, name));
+  });
+  if (const toml::table* table = settings.FindTable("camera")) {
+    scene.camera = ReadCameraSpec(*table, name);
+  }
+  if (const toml::table* table = settings.FindTable("render"))
+    scene.render = ReadRender(*table, name);
+  settings.FailUnknown();
+  if (scene.species.empty()) {
+    throw InputError(name, 0, "the scene has no animals", "add a table [[species]]");
+  }
+  return scene;
+}
+
+Scene ReadScene(const std::filesystem::path& path) {
+  return ParseScene(ReadTextFile(path), path.string());
+}
+
+std::string FormatScene(const Scene& scene) {
+  SceneText out;
+  out.Heading("[scene]");
+  out.Integer("version", static_cast<std::uint64_t>(scene.version));
+  out.Integer("seed", scene.seed);
+  out.Number("duration", scene.duration);
+  out.Number("fps", scene.fps);
+  out.Integer("substeps", static_cast<std::uint64_t>(scene.substeps));
+  out.Integer("dimensions", static_cast<std::uint64_t>(scene.dimensions));
+  out.Number("warmup", scene.warmup);
+  out.Raw("box", FormatRegion(scene.box));
+  for (const SpeciesSpec& species : scene.species) Append(species, &out);
+  for (const GoalSpec& goal : scene.goals) Append(goal, &out);
+  for (const PredatorSpec& predator : scene.predators) Append(predator, &out);
+  Append(scene.camera, &out);
+  Append(scene.render, &out);
+  return out.Take();
+}
+
+void WriteScene(const std::filesystem::path& path, const Scene& scene) {
+  WriteTextFile(path, FormatScene(scene));
+}
+
+}  // namespace flocklift

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Checked reading of TOML tables: every key is asked for by name, with its type and range; what
+// nobody asked for is an error that suggests the nearest key. Only for sources: it drags in toml++.
+
+#ifndef FLOCKLIFT_SIMULATE_CORE_SETTINGS_H_
+#define FLOCKLIFT_SIMULATE_CORE_SETTINGS_H_
+
+#include <toml++/toml.h>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "simulate/core/vec3.h"
+
+namespace flocklift::internal {
+
+// InputError with the line when the text is not TOML.
+toml::table ParseToml(std::string_view text, const std::string& name);
+
+// A value's own line in the file `name`.
+[[noreturn]] void FailAt(const toml::node& node, const std::string& name, const std::string& fault,
+                         const std::string& mend);
+
+// Legal values of a number; `above` is itself not legal.
+struct Limits {
+  double low = -1e9, high = 1e9;
+  bool low_is_legal = true;
+
+  static Limits Positive(double high = 1e9) { return {0, high, false}; }
+};
+
+class Settings {
+ public:
+  // `heading` is how a person writes the table: "[scene]".
+  Settings(const toml::table& table, std::string name, std::string heading)
+      : table_(table), name_(std::move(name)), heading_(std::move(heading)) {}
+
+  // Each leaves `value` alone when the key is absent, and returns whether it is there.
+  bool Number(std::string_view key, double* value, const Limits& limits = {});
+  bool Integer(std::string_view key, std::int64_t* value, std::int64_t low, std::int64_t high);
+  bool Text(std::string_view key, std::string* value, const std::vector<std::string>& choices = {});
+  bool Fps(std::string_view key, double* value);  // a number, or a ratio as text
+  // [x, y, z], and [x, y] (z = 0) when `may_be_flat`.
+  bool Vector(std::string_view key, Vec3d* value, bool may_be_flat);
+
+  // [[x, y, z], [x, y, z]]: the low corner of a box with some extent, then the high one.
+  bool Corners(std::string_view key, Vec3d* low, Vec3d* high, bool may_be_flat);
+
+  // The node of a key, null when absent; checks nothing but marks the key as known.
+  const toml::node* Find(std::string_view key);
+  const toml::array* FindArray(std::string_view key);
+  const toml::table* FindTable(std::string_view key);
+  // Calls `take` for each table of [[key]].
+  void EachTable(std::string_view key, const std::function<void(const toml::table&)>& take);
+  // Fails when the key is there: a later schema's.
+  void Refuse(std::string_view key);
+  // Every key with its number, and "FILE:LINE" of each: names that only others know.
+  void AllNumbers(std::map<std::string, double>* values, std::map<std::string, std::string>* where);
+
+  // Fails at the first key that none of the above was asked for.
+  void FailUnknown() const;
+  [[noreturn]] void Fail(std::string_view key, const std::string& fault,
+                         const std::string& mend) const;
+  [[noreturn]] void FailMissing(std::string_view key, const std::string& mend) const;
+
+  const toml::table& table() const { return table_; }
+  const std::string& name() const { return name_; }
+  std::string Where(std::string_view key) const;  // "FILE:LINE" of the key, or else of the table
+
+ private:
+  double CheckedNumber(const toml::node& node, std::string_view key, const Limits& limits) const;
+  Vec3d CheckedVector(const toml::array& numbers, std::string_view key, bool may_be_flat) const;
+
+  const toml::table& table_;
+  std::string name_, heading_;
+  std::vector<std::string> known_;
+};
+
+// A finite number as TOML, the shortest text that reads the same; and text in quotation marks.
+std::string TomlNumber(double value);
+std::string TomlText(std::string_view text);
+std::string TomlKey(std::string_view key);  // in quotation marks where TOML needs them
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_SIMULATE_CORE_SETTINGS_H_
