@@ -1,0 +1,291 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "track/associate/flock_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+
+#include "track/associate/assignment.h"
+#include "track/associate/point_grid.h"
+#include "track/associate/share_blob.h"
+
+namespace flocklift {
+namespace {
+
+constexpr double kMassSd = 0.4;  // of the log of an animal's mass from frame to frame
+constexpr double kMostMassCost = 4;
+constexpr double kShareCost = 1.5;       // a shared blob is less likely than one of its own
+constexpr double kLeastShareMass = 0.6;  // of what the animals together should have
+constexpr double kMemory = 0.15;         // weight of the newest size, mass and shape
+constexpr double kReachSds = 1.5;        // a prediction so near to a blob may be inside
+
+double SpreadOf(const Moments& m) { return 0.5 * (m.xx + m.yy); }
+
+double SquaredDistanceToPixels(std::span<const BlobPixel> pixels, const Vec2d& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const BlobPixel& q : pixels) {
+    const double dx = std::max(std::abs(q.x - p.x) - 0.5, 0.0);
+    const double dy = std::max(std::abs(q.y - p.y) - 0.5, 0.0);
+    nearest = std::min(nearest, dx * dx + dy * dy);
+  }
+  return nearest;
+}
+
+std::span<const BlobPixel> PixelsOf(const BlobFrame& frame, const Blob& blob) {
+  return std::span(frame.pixels).subspan(blob.first_pixel, blob.pixel_count);
+}
+
+double MassCost(double mass, double expected) {
+  const double z = std::log(mass / expected) / kMassSd;
+  return std::min(0.5 * z * z, kMostMassCost);
+}
+
+}  // namespace
+
+FlockTracker::FlockTracker(const AssociationOptions& options, const MotionNoise& noise,
+                           double image_width, double image_height)
+    : options_(options),
+      noise_(noise),
+      width_(image_width),
+      height_(image_height),
+      gate_(-2 * std::log(1 - options.gate_probability)) {  // chi-square, 2 degrees of freedom
+  CheckOptions(options);
+}
+
+void FlockTracker::Step(const BlobFrame& blobs) {
+  PredictAll(started_ ? blobs.frame - last_frame_ : 1);
+  const std::vector<Observation> observations = Observe(blobs);
+  const std::vector<int> taken = AssignAll(blobs, observations);
+  UpdateAll(blobs, observations, taken);
+  EndAndBegin(blobs, observations, taken);
+  last_frame_ = blobs.frame;
+  started_ = true;
+}
+
+void FlockTracker::PredictAll(int frames) {
+  for (Animal& animal : animals_) {
+    Predict(&animal.motion, noise_.ProcessVariance(animal.record.size), frames);
+    animal.age += frames;
+    animal.missed += frames - 1;
+  }
+}
+
+// For each blob the confirmed animals whose prediction lies in it or just beside, each animal in
+// the nearest blob only.
+std::vector<std::vector<int>> FlockTracker::ExpectedInBlobs(const BlobFrame& blobs) const {
+  std::vector<std::vector<int>> expected(blobs.blobs.size());
+  std::vector<Vec2d> centers;
+  double longest = 0;
+  for (const Blob& blob : blobs.blobs) {
+    centers.push_back(blob.center);
+    longest = std::max({longest, blob.box.width, blob.box.height});
+  }
+  const PointGrid grid(centers, std::max(longest, 8.0));
+  for (std::size_t i = 0; i < animals_.size(); ++i) {
+    const Animal& animal = animals_[i];
+    if (!animal.confirmed) continue;
+    const double reach = 0.7 + kReachSds * std::sqrt(animal.motion.pp);
+    double nearest = reach * reach;
+    int where = -1;
+    grid.ForEachWithin(animal.motion.position, reach + longest, [&](int j, double) {
+      const Blob& blob = blobs.blobs[j];
+      const double distance2 =
+          SquaredDistanceToPixels(PixelsOf(blobs, blob), animal.motion.position);
+      if (distance2 < nearest || (distance2 == nearest && where < 0)) {
+        nearest = distance2;
+        where = j;
+      }
+    });
+    if (where >= 0) expected[where].push_back(static_cast<int>(i));
+  }
+  return expected;
+}
+
+std::vector<FlockTracker::Observation> FlockTracker::Observe(const BlobFrame& blobs) {
+  std::vector<std::vector<int>> expected = ExpectedInBlobs(blobs);
+  std::vector<Observation> observations;
+  for (std::size_t j = 0; j < blobs.blobs.size(); ++j) {
+    const Blob& blob = blobs.blobs[j];
+    std::vector<int>& inside = expected[j];
+    // The blob must be heavy enough for all of them, as far as they do not hide each other; else
+    // whoever was missed longest is not in it.
+    while (inside.size() >= 2) {
+      double together = 0;
+      for (std::size_t a = 0; a < inside.size(); ++a) {
+        const Animal& x = animals_[inside[a]];
+        together += x.record.mass;
+        for (std::size_t b = 0; b < a; ++b) {
+          const Animal& y = animals_[inside[b]];
+          const double dx = x.motion.position.x - y.motion.position.x;
+          const double dy = x.motion.position.y - y.motion.position.y;
+          together -=
+              std::min(x.record.mass, y.record.mass) *
+              std::exp(-(dx * dx + dy * dy) / (2 * (SpreadOf(x.moments) + SpreadOf(y.moments))));
+        }
+      }
+      if (blob.mass >= kLeastShareMass * together) break;
+      const auto out = std::max_element(inside.begin(), inside.end(), [this](int a, int b) {
+        return animals_[a].missed < animals_[b].missed;
+      });
+      inside.erase(out);
+    }
+    if (inside.size() < 2) {
+      observations.push_back({blob.center, 0, static_cast<int>(j), -1});
+      continue;
+    }
+    std::vector<Expectation> expectations;
+    for (const int i : inside) {
+      const Animal& a = animals_[i];
+      expectations.push_back({a.motion.position, a.motion.pp,
+                              noise_.MeasurementVariance(a.record.size), a.record.mass, a.moments});
+    }
+    const std::vector<Share> shares = ShareBlob(PixelsOf(blobs, blob), expectations);
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+      observations.push_back(
+          {shares[k].position, shares[k].variance, static_cast<int>(j), inside[k]});
+    }
+  }
+  return observations;
+}
+
+std::vector<int> FlockTracker::AssignAll(const BlobFrame& blobs,
+                                         const std::vector<Observation>& observations) {
+  std::vector<Vec2d> positions;
+  for (const Observation& o : observations) positions.push_back(o.position);
+  const PointGrid grid(positions, 32);
+  const double log_density = std::log(std::max(strays_, 1.0) / (width_ * height_));
+  std::vector<Candidate> candidates;
+  std::vector<double> alone;
+  for (std::size_t i = 0; i < animals_.size(); ++i) {
+    const Animal& animal = animals_[i];
+    alone.push_back(-std::log(1 - options_.detection_probability));
+    const double own_noise = noise_.MeasurementVariance(animal.record.size);
+    const double widest = animal.motion.pp + own_noise + 2 * SpreadOf(animal.moments);
+    grid.ForEachWithin(animal.motion.position, std::sqrt(gate_ * widest), [&](int j, double d2) {
+      const Observation& o = observations[j];
+      if (o.owner >= 0 && o.owner != static_cast<int>(i)) return;
+      const double s = animal.motion.pp + (o.owner >= 0 ? o.variance : own_noise);
+      if (d2 > gate_ * s) return;
+      const double extra =
+          o.owner >= 0 ? kShareCost : MassCost(blobs.blobs[o.blob].mass, animal.record.mass);
+      candidates.push_back({static_cast<int>(i), j,
+                            0.5 * d2 / s + std::log(2 * std::numbers::pi * s) + log_density -
+                                std::log(options_.detection_probability) + extra});
+    });
+  }
+  return Assign(static_cast<int>(observations.size()), candidates, alone);
+}
+
+void FlockTracker::Sight(const BlobFrame& blobs, const Observation& o, Animal* animal) {
+  const Blob& blob = blobs.blobs[o.blob];
+  TrackRecord& record = animal->record;
+  const bool shared = o.owner >= 0;
+  const double variance = shared ? o.variance : noise_.MeasurementVariance(record.size);
+  Update(&animal->motion, o.position, variance);
+  ++animal->hits;
+  animal->missed = 0;
+  Sighting sighting{blobs.frame, o.position, variance, blob.box.width, blob.box.height, {}, shared};
+  if (shared) {
+    const Sighting& before = record.sightings.back();
+    sighting.width = before.width;
+    sighting.height = before.height;
+    sighting.shape = before.shape;
+  } else {
+    const double w = std::max(kMemory, 1.0 / animal->hits);
+    record.mass *= std::pow(blob.mass / record.mass, w);
+    record.size *= std::pow(SizeOf(blob) / record.size, w);
+    animal->moments.xx += w * (blob.moments.xx - animal->moments.xx);
+    animal->moments.xy += w * (blob.moments.xy - animal->moments.xy);
+    animal->moments.yy += w * (blob.moments.yy - animal->moments.yy);
+    sighting.shape = ShapeOf(blob.moments, blob.mass / std::max(blob.peak, 1e-9));
+  }
+  record.sightings.push_back(sighting);
+}
+
+void FlockTracker::UpdateAll(const BlobFrame& blobs, const std::vector<Observation>& observations,
+                             const std::vector<int>& taken) {
+  std::vector<int> sharers(blobs.blobs.size(), 0);
+  for (const int j : taken) {
+    if (j >= 0 && observations[j].owner >= 0) ++sharers[observations[j].blob];
+  }
+  for (std::size_t i = 0; i < animals_.size(); ++i) {
+    Animal& animal = animals_[i];
+    if (taken[i] < 0) {
+      ++animal.missed;
+      continue;
+    }
+    Observation o = observations[taken[i]];
+    if (o.owner >= 0 && sharers[o.blob] == 1) {  // the others turned out to be elsewhere
+      o.owner = -1;
+      o.position = blobs.blobs[o.blob].center;
+    }
+    Sight(blobs, o, &animal);
+  }
+}
+
+void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observation>& observations,
+                               const std::vector<int>& taken) {
+  std::vector<char> used(blobs.blobs.size(), 0);
+  for (const int j : taken) {
+    if (j >= 0) used[observations[j].blob] = 1;
+  }
+  std::size_t kept = 0;
+  for (Animal& animal : animals_) {
+    if (!animal.confirmed && animal.hits >= options_.confirm_hits) animal.confirmed = true;
+    const Vec2d& p = animal.motion.position;
+    const bool outside = p.x < 0 || p.y < 0 || p.x > width_ - 1 || p.y > height_ - 1;
+    const bool over =
+        animal.confirmed
+            ? animal.missed > options_.max_missed_frames || (outside && animal.missed > 0)
+            : animal.age + 1 - animal.hits > options_.confirm_frames - options_.confirm_hits ||
+                  (outside && animal.missed > 0);
+    if (over) {
+      if (animal.confirmed) finished_.push_back(std::move(animal.record));
+    } else {
+      if (&animals_[kept] != &animal) animals_[kept] = std::move(animal);
+      ++kept;
+    }
+  }
+  animals_.resize(kept);
+
+  int strays = 0;
+  for (std::size_t j = 0; j < blobs.blobs.size(); ++j) {
+    if (used[j]) continue;
+    ++strays;
+    const Blob& blob = blobs.blobs[j];
+    Animal animal;
+    animal.record.size = SizeOf(blob);
+    animal.record.mass = blob.mass;
+    animal.moments = blob.moments;
+    animal.motion = {blob.center,
+                     {0, 0},
+                     noise_.MeasurementVariance(animal.record.size),
+                     0,
+                     noise_.speed_sd * noise_.speed_sd};
+    animal.hits = 1;
+    animal.confirmed = options_.confirm_hits <= 1;
+    animal.record.sightings.push_back(
+        {blobs.frame, blob.center, animal.motion.pp, blob.box.width, blob.box.height,
+         ShapeOf(blob.moments, blob.mass / std::max(blob.peak, 1e-9)), false});
+    animals_.push_back(std::move(animal));
+  }
+  strays_ += 0.1 * (strays - strays_);
+}
+
+std::vector<TrackRecord> FlockTracker::Finish() {
+  for (Animal& animal : animals_) {
+    if (animal.confirmed) finished_.push_back(std::move(animal.record));
+  }
+  animals_.clear();
+  std::stable_sort(finished_.begin(), finished_.end(),
+                   [](const TrackRecord& a, const TrackRecord& b) {
+                     return a.sightings.front().frame < b.sightings.front().frame;
+                   });
+  return std::move(finished_);
+}
+
+}  // namespace flocklift

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Many animals, frame by frame: predict, share blobs, gate, assign, update. Costs are negative log
+// likelihoods: animal i sighted as observation j costs
+//   1/2 d^2 + ln(2 pi S) + ln(density) - ln P_D + mass term,   S = P + r,
+// where density is that of observations which belong to nobody [1/px^2], and a missed animal costs
+// -ln(1 - P_D). A blob in which several animals are expected is shared among them (share_blob.h).
+
+#ifndef FLOCKLIFT_TRACK_ASSOCIATE_FLOCK_TRACKER_H_
+#define FLOCKLIFT_TRACK_ASSOCIATE_FLOCK_TRACKER_H_
+
+#include <vector>
+
+#include "simulate/core/options.h"
+#include "track/detect/blob.h"
+#include "track/predict/motion_noise.h"
+
+namespace flocklift {
+
+struct AssociationOptions {
+  double gate_probability = 0.9999;  // chi-square mass inside the gate
+  double detection_probability = 0.95;
+  int max_missed_frames = 10;
+  int confirm_hits = 3;
+  int confirm_frames = 5;
+};
+
+template <typename Visitor>
+void Describe(Visitor& visit, AssociationOptions& o) {
+  visit("gate-probability", o.gate_probability, {.low = 0.5, .high = 0.999999}, "",
+        "share of true sightings inside the association gate");
+  visit("detection-probability", o.detection_probability, {.low = 0.05, .high = 0.9999}, "",
+        "chance that an animal in the picture is detected");
+  visit("max-missed-frames", o.max_missed_frames, {.low = 0, .high = 1000}, "frames",
+        "an animal that is missed for longer is given up (stitching may find it again)");
+  visit("confirm-hits", o.confirm_hits, {.low = 1, .high = 100}, "",
+        "sightings that make a track, among its first confirm-frames frames");
+  visit("confirm-frames", o.confirm_frames, {.low = 1, .high = 1000}, "frames", "see confirm-hits");
+}
+
+// An animal as it was seen in one frame.
+struct Sighting {
+  int frame = 0;
+  Vec2d position;                // [px]
+  double variance = 1;           // per axis [px^2]
+  double width = 0, height = 0;  // of its box [px]
+  Shape shape;
+  bool shared = false;  // the blob held others too
+};
+
+// One animal's sightings by increasing frame.
+struct TrackRecord {
+  double size = 1;  // usual, square root of area [px]
+  double mass = 0;  // usual
+  std::vector<Sighting> sightings;
+};
+
+class FlockTracker {
+ public:
+  FlockTracker(const AssociationOptions& options, const MotionNoise& noise, double image_width,
+               double image_height);
+
+  // Frames by increasing number; those left out count as missed.
+  void Step(const BlobFrame& blobs);
+
+  // All that was confirmed, by first frame.
+  std::vector<TrackRecord> Finish();
+
+  int active() const { return static_cast<int>(animals_.size()); }
+  void SetNoise(const MotionNoise& noise) { noise_ = noise; }
+
+ private:
+  struct Animal {
+    MotionState motion;
+    Moments moments;
+    TrackRecord record;
+    int hits = 0, missed = 0, age = 0;
+    bool confirmed = false;
+  };
+  // A blob, or one animal's share of a blob.
+  struct Observation {
+    Vec2d position;
+    double variance = 0;
+    int blob = 0;
+    int owner = -1;  // a share can be taken by its animal alone
+  };
+
+  void PredictAll(int frames);
+  std::vector<Observation> Observe(const BlobFrame& blobs);
+  std::vector<std::vector<int>> ExpectedInBlobs(const BlobFrame& blobs) const;
+  std::vector<int> AssignAll(const BlobFrame& blobs, const std::vector<Observation>& observations);
+  void UpdateAll(const BlobFrame& blobs, const std::vector<Observation>& observations,
+                 const std::vector<int>& taken);
+  void Sight(const BlobFrame& blobs, const Observation& observation, Animal* animal);
+  void EndAndBegin(const BlobFrame& blobs, const std::vector<Observation>& observations,
+                   const std::vector<int>& taken);
+
+  AssociationOptions options_;
+  MotionNoise noise_;
+  double width_, height_, gate_;
+  double strays_ = 1;  // observations a frame that belong to nobody, running mean
+  int last_frame_ = 0;
+  bool started_ = false;
+  std::vector<Animal> animals_;
+  std::vector<TrackRecord> finished_;
+};
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TRACK_ASSOCIATE_FLOCK_TRACKER_H_

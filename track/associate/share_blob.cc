@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "track/associate/share_blob.h"
+
+#include <cmath>
+
+namespace flocklift {
+namespace {
+
+constexpr int kIterations = 12;
+constexpr double kLeastVariance = 0.25;  // of an animal's own shape [px^2]
+
+// Inverse covariance and log weight of one mixture component.
+struct Gaussian {
+  double xx = 0, xy = 0, yy = 0, log_weight = 0;
+
+  explicit Gaussian(const Expectation& a) {
+    const double cxx = a.moments.xx + kLeastVariance, cyy = a.moments.yy + kLeastVariance;
+    const double det = cxx * cyy - a.moments.xy * a.moments.xy;
+    xx = cyy / det;
+    xy = -a.moments.xy / det;
+    yy = cxx / det;
+    log_weight = std::log(std::max(a.mass, 1e-9)) - 0.5 * std::log(det);
+  }
+};
+
+}  // namespace
+
+std::vector<Share> ShareBlob(std::span<const BlobPixel> pixels,
+                             std::span<const Expectation> animals) {
+  const std::size_t count = animals.size();
+  std::vector<Gaussian> gaussians;
+  std::vector<Share> shares(count);
+  std::vector<Vec2d> means(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    gaussians.emplace_back(animals[k]);
+    means[k] = animals[k].position;
+  }
+  std::vector<double> log_share(count), sum(count), sum_x(count), sum_y(count), sum_squared(count);
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    for (std::size_t k = 0; k < count; ++k) sum[k] = sum_x[k] = sum_y[k] = sum_squared[k] = 0;
+    for (const BlobPixel& p : pixels) {
+      double best = -1e300;
+      for (std::size_t k = 0; k < count; ++k) {
+        const double dx = p.x - means[k].x, dy = p.y - means[k].y;
+        const Gaussian& g = gaussians[k];
+        log_share[k] = g.log_weight - 0.5 * (g.xx * dx * dx + 2 * g.xy * dx * dy + g.yy * dy * dy);
+        best = std::max(best, log_share[k]);
+      }
+      double total = 0;
+      for (std::size_t k = 0; k < count; ++k) total += log_share[k] = std::exp(log_share[k] - best);
+      for (std::size_t k = 0; k < count; ++k) {
+        const double share = log_share[k] / total, weight = share * p.contrast;
+        sum[k] += weight;
+        sum_x[k] += weight * p.x;
+        sum_y[k] += weight * p.y;
+        sum_squared[k] += weight * share;
+      }
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const Expectation& a = animals[k];
+      if (sum[k] < 1e-6) {
+        shares[k] = {a.position, 1e6};
+        continue;
+      }
+      const double ambiguity = 1 - sum_squared[k] / sum[k];
+      const double variance =
+          a.noise + ambiguity * 0.5 * (a.moments.xx + a.moments.yy + 2 * kLeastVariance);
+      shares[k] = {{sum_x[k] / sum[k], sum_y[k] / sum[k]}, variance};
+      const double w = a.variance / (a.variance + variance);
+      means[k] = {w * shares[k].position.x + (1 - w) * a.position.x,
+                  w * shares[k].position.y + (1 - w) * a.position.y};
+    }
+  }
+  return shares;
+}
+
+}  // namespace flocklift

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The sky behind the animals and its noise, from one frame alone: a local mean over a window wider
+// than an animal, from which whatever stands out has been taken away,
+//   B(x) = sum_w m I / sum_w m,   m = 0 where |I - B| > 3 sd (repeated),
+// and the noise's standard deviation by tile, 1.4826 median |I - B|. Clouds are smooth over the
+// window and pass into B; a change of light between frames (a fade, the sun) changes B at once.
+
+#ifndef FLOCKLIFT_TRACK_DETECT_BACKGROUND_H_
+#define FLOCKLIFT_TRACK_DETECT_BACKGROUND_H_
+
+#include <vector>
+
+#include "track/gray_image.h"
+
+namespace flocklift {
+
+// Two fields on a grid of width x height nodes that covers the image; node (i, j) stands at pixel
+// ((i + 0.5) step_x - 0.5, (j + 0.5) step_y - 0.5).
+struct Background {
+  int width = 0, height = 0;
+  double step_x = 1, step_y = 1;
+  std::vector<float> level;  // [grey levels]
+  std::vector<float> noise;  // sd of a pixel about the level [grey levels]
+
+  // Bilinear in between, constant outside.
+  double LevelAt(double x, double y) const { return Interpolate(level, x, y); }
+  double NoiseAt(double x, double y) const { return Interpolate(noise, x, y); }
+
+ private:
+  double Interpolate(const std::vector<float>& field, double x, double y) const;
+};
+
+// `window` [px] is the side of the local mean, three or so times the length of an animal.
+// `least_noise` bounds the noise from below: a rendered sky has none.
+Background EstimateBackground(const GrayImage& image, double window, double least_noise);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TRACK_DETECT_BACKGROUND_H_

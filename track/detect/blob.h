@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What detection finds in one frame: connected patches that stand out from their surroundings.
+
+#ifndef FLOCKLIFT_TRACK_DETECT_BLOB_H_
+#define FLOCKLIFT_TRACK_DETECT_BLOB_H_
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "simulate/core/observations.h"
+#include "simulate/core/vec3.h"
+
+namespace flocklift {
+
+// Second central moments [px^2].
+struct Moments {
+  double xx = 0, xy = 0, yy = 0;
+};
+
+// One pixel of a blob: how much it differs from the background [grey levels], positive.
+struct BlobPixel {
+  float x = 0, y = 0, contrast = 0;
+};
+
+struct Blob {
+  Vec2d center;     // contrast-weighted [px]
+  Moments moments;  // contrast-weighted, of the pixels as squares (1/12 included)
+  double mass = 0;  // sum of the contrast [grey levels px^2]
+  double peak = 0;  // largest contrast, lightly smoothed [grey levels]
+  double snr = 0;   // peak over the local noise
+  Box box;          // of the pixels
+  std::uint32_t first_pixel = 0, pixel_count = 0;  // in BlobFrame::pixels; none: not known
+};
+
+struct BlobFrame {
+  int frame = 0;
+  std::vector<Blob> blobs;
+  std::vector<BlobPixel> pixels;
+};
+
+// 4 standard deviations along the axes.
+inline Shape ShapeOf(const Moments& m, double area) {
+  const double mean = 0.5 * (m.xx + m.yy), half = 0.5 * (m.xx - m.yy);
+  const double root = std::sqrt(half * half + m.xy * m.xy);
+  double angle = 0.5 * std::atan2(2 * m.xy, m.xx - m.yy) * 180 / std::numbers::pi;
+  if (angle < 0) angle += 180;
+  if (angle >= 180) angle -= 180;
+  return {4 * std::sqrt(mean + root), 4 * std::sqrt(std::max(mean - root, 0.0)), angle, area};
+}
+
+// The inverse of ShapeOf.
+inline Moments MomentsOf(const Shape& shape) {
+  const double a = shape.major * shape.major / 16, b = shape.minor * shape.minor / 16;
+  const double angle = shape.angle_deg * std::numbers::pi / 180;
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {a * c * c + b * s * s, (a - b) * c * s, a * s * s + b * c * c};
+}
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TRACK_DETECT_BLOB_H_

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "track/detect/detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "simulate/core/check.h"
+#include "track/detect/background.h"
+#include "track/detect/components.h"
+
+namespace flocklift {
+namespace {
+
+constexpr double kLeastNoise = 0.7;         // [grey levels]: 8-bit pictures have no less
+constexpr double kLowOverHigh = 0.5;        // hysteresis
+constexpr double kWindowOverLength = 3;     // of the local mean, to the usual length
+constexpr double kLongestOverWindow = 1.2;  // a longer blob is no animal
+constexpr double kFirstWindowOverHeight = 1.0 / 8;
+constexpr std::size_t kRemembered = 600;  // blobs
+constexpr int kSummaryInterval = 8;       // frames
+
+cv::Mat View(const GrayImage& image) {
+  return cv::Mat(image.height, image.width, CV_8UC1,
+                 const_cast<std::uint8_t*>(image.pixels.data()));
+}
+
+// 255 where the image passes the threshold, 0 elsewhere.
+GrayImage MaskOf(const GrayImage& image, const Background& background, bool dark,
+                 const std::vector<float>& threshold) {
+  cv::Mat coarse(background.height, background.width, CV_8UC1);
+  for (std::size_t k = 0; k < threshold.size(); ++k) {
+    const float limit = dark ? std::ceil(background.level[k] - threshold[k])
+                             : std::floor(background.level[k] + threshold[k]);
+    coarse.data[k] = static_cast<std::uint8_t>(std::clamp(limit, 0.0f, 255.0f));
+  }
+  cv::Mat limit;
+  cv::resize(coarse, limit, cv::Size(image.width, image.height), 0, 0, cv::INTER_LINEAR);
+  GrayImage mask(image.width, image.height);
+  cv::Mat out = View(mask);
+  cv::compare(View(image), limit, out, dark ? cv::CMP_LT : cv::CMP_GT);
+  return mask;
+}
+
+// Sums over the pixels of one blob, which stand at the end of `found->pixels` from `first` on.
+Blob Measure(const BlobFrame& found, std::size_t first) {
+  Blob blob;
+  double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
+  for (std::size_t k = first; k < found.pixels.size(); ++k) {
+    const BlobPixel& p = found.pixels[k];
+    blob.mass += p.contrast;
+    blob.center.x += p.contrast * p.x;
+    blob.center.y += p.contrast * p.y;
+    left = std::min<double>(left, p.x);
+    right = std::max<double>(right, p.x);
+    top = std::min<double>(top, p.y);
+    bottom = std::max<double>(bottom, p.y);
+  }
+  blob.center.x /= blob.mass;
+  blob.center.y /= blob.mass;
+  for (std::size_t k = first; k < found.pixels.size(); ++k) {
+    const BlobPixel& p = found.pixels[k];
+    const double dx = p.x - blob.center.x, dy = p.y - blob.center.y;
+    blob.moments.xx += p.contrast * dx * dx;
+    blob.moments.xy += p.contrast * dx * dy;
+    blob.moments.yy += p.contrast * dy * dy;
+  }
+  blob.moments.xx = blob.moments.xx / blob.mass + 1.0 / 12;
+  blob.moments.xy = blob.moments.xy / blob.mass;
+  blob.moments.yy = blob.moments.yy / blob.mass + 1.0 / 12;
+  blob.box = {left - 0.5, top - 0.5, right - left + 1, bottom - top + 1};
+  blob.first_pixel = static_cast<std::uint32_t>(first);
+  blob.pixel_count = static_cast<std::uint32_t>(found.pixels.size() - first);
+  return blob;
+}
+
+// Value at which `share` of the mass is reached.
+template <typename Get>
+double MassQuantile(std::vector<std::pair<double, double>>* scratch, double share, const Get& get) {
+  scratch->clear();
+  get(scratch);
+  std::sort(scratch->begin(), scratch->end());
+  double total = 0, sum = 0;
+  for (const auto& [value, mass] : *scratch) total += mass;
+  for (const auto& [value, mass] : *scratch) {
+    sum += mass;
+    if (sum >= share * total) return value;
+  }
+  return 0;
+}
+
+}  // namespace
+
+Detector::Detector(const DetectorOptions& options) : options_(options) {
+  CheckOptions(options);
+  const std::string& p = options.polarity;
+  Check(p == "auto" || p == "dark" || p == "bright" || p == "both",
+        "option polarity is " + p + ", allowed are dark, bright, both and auto");
+  dark_ = p != "bright";
+  bright_ = p == "bright" || p == "both";
+}
+
+double Detector::Window(int image_height) const {
+  const double widest = std::max(16.0, kFirstWindowOverHeight * image_height);
+  if (options_.window > 0) return options_.window;
+  if (usual_length_ <= 0) return widest;
+  return std::clamp(kWindowOverLength * usual_length_, std::min(24.0, widest), widest);
+}
+
+void Detector::Learn(std::span<const GrayImage> images) {
+  if (options_.polarity == "auto") {
+    double dark_energy = 0, bright_energy = 0;
+    for (const GrayImage& image : images) {
+      for (const bool dark : {true, false}) {
+        BlobFrame found;
+        FindBlobs(image, dark, &found);
+        for (const Blob& blob : found.blobs)
+          (dark ? dark_energy : bright_energy) += blob.peak * blob.peak;
+      }
+    }
+    dark_ = dark_energy >= bright_energy;
+    bright_ = !dark_;
+  }
+  for (const GrayImage& image : images) Detect(0, image);
+}
+
+BlobFrame Detector::Detect(int frame, const GrayImage& image) {
+  BlobFrame found;
+  found.frame = frame;
+  if (dark_) FindBlobs(image, true, &found);
+  if (bright_) FindBlobs(image, false, &found);
+  Remember(found);
+  return found;
+}
+
+void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
+  GrayImage smooth(image.width, image.height);
+  cv::Mat smooth_view = View(smooth);
+  cv::GaussianBlur(View(image), smooth_view, cv::Size(3, 3), 0);
+  const double window = Window(image.height);
+  const Background background = EstimateBackground(smooth, window, kLeastNoise);
+
+  const double sign = dark ? 1 : -1;
+  const double least_contrast = options_.relative_contrast * usual_contrast_;
+  std::vector<float> low(background.noise.size());
+  for (std::size_t k = 0; k < low.size(); ++k) {
+    low[k] = static_cast<float>(kLowOverHigh *
+                                std::max(options_.threshold * background.noise[k], least_contrast));
+  }
+  const std::vector<Component> components = FindComponents(MaskOf(smooth, background, dark, low));
+
+  std::vector<float> contrast, raw;
+  for (const Component& c : components) {
+    if (c.area < options_.min_area) continue;
+    const int width = c.right - c.left + 1, height = c.bottom - c.top + 1;
+    if (width > image.width / 2 && height > image.height / 2) continue;
+    contrast.assign(static_cast<std::size_t>(width) * height, 0);
+    raw.assign(contrast.size(), 0);
+    float peak = 0;
+    for (const PixelRun& run : c.runs) {
+      for (int u = run.first; u <= run.last; ++u) {
+        const double level = background.LevelAt(u, run.v);
+        const std::size_t k = static_cast<std::size_t>(run.v - c.top) * width + (u - c.left);
+        contrast[k] = static_cast<float>(std::max(sign * (level - smooth.Row(run.v)[u]), 0.01));
+        raw[k] = static_cast<float>(std::max(sign * (level - image.Row(run.v)[u]), 0.01));
+        peak = std::max(peak, contrast[k]);
+      }
+    }
+    const double noise = background.NoiseAt(0.5 * (c.left + c.right), 0.5 * (c.top + c.bottom));
+    const double high = std::max(options_.threshold * noise, least_contrast);
+    if (peak < high) continue;
+
+    WatershedOptions watershed;
+    watershed.least_dip = std::max(4 * noise, 0.5 * high);
+    int parts = 0;
+    const std::vector<int> part = CutAtSaddles(contrast, width, height, watershed, &parts);
+    for (int p = 0; p < parts; ++p) {
+      const std::size_t first = found->pixels.size();
+      float part_peak = 0;
+      for (int k = 0; k < width * height; ++k) {
+        if (part[k] != p) continue;
+        part_peak = std::max(part_peak, contrast[k]);
+        found->pixels.push_back({static_cast<float>(c.left + k % width),
+                                 static_cast<float>(c.top + k / width), raw[k]});
+      }
+      Blob blob = Measure(*found, first);
+      blob.peak = part_peak;
+      blob.snr = part_peak / noise;
+      if (part_peak < high || static_cast<int>(blob.pixel_count) < options_.min_area ||
+          std::max(blob.box.width, blob.box.height) > kLongestOverWindow * window) {
+        found->pixels.resize(first);
+        continue;
+      }
+      found->blobs.push_back(blob);
+    }
+  }
+}
+
+void Detector::Remember(const BlobFrame& found) {
+  for (const Blob& blob : found.blobs) {
+    recent_.push_back({blob.mass, blob.peak, ShapeOf(blob.moments, 0).major});
+    if (recent_.size() > kRemembered) recent_.pop_front();
+  }
+  if (recent_.empty() || (usual_length_ > 0 && ++frames_since_summary_ < kSummaryInterval)) return;
+  frames_since_summary_ = 0;
+  std::vector<std::pair<double, double>> scratch;
+  usual_contrast_ = MassQuantile(&scratch, 0.5, [this](auto* values) {
+    for (const Trace& t : recent_) values->push_back({t.peak, t.mass});
+  });
+  usual_length_ = MassQuantile(&scratch, 0.8, [this](auto* values) {
+    for (const Trace& t : recent_) values->push_back({t.length, t.mass});
+  });
+}
+
+}  // namespace flocklift

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Detection by local contrast. A pixel is a candidate when it differs from the background
+// (background.h) by more than a threshold T, of the sign of the animals; connected candidates whose
+// strongest pixel passes 2 T make a blob (hysteresis); a blob with a deep saddle is cut there
+// (watershed.h). With sd the local noise and C the usual contrast of the animals,
+//   2 T = max(threshold * sd, relative_contrast * C).
+// Sign, usual contrast and usual length are learned from the footage and follow it. Contrast is
+// measured against the same frame's surroundings, so clouds that are smoother than an animal is
+// long, and fades, do not fire.
+
+#ifndef FLOCKLIFT_TRACK_DETECT_DETECTOR_H_
+#define FLOCKLIFT_TRACK_DETECT_DETECTOR_H_
+
+#include <deque>
+#include <span>
+#include <string>
+
+#include "simulate/core/options.h"
+#include "track/detect/blob.h"
+#include "track/detect/watershed.h"
+#include "track/gray_image.h"
+
+namespace flocklift {
+
+struct DetectorOptions {
+  std::string polarity = "auto";   // dark or bright animals, both, or learned from the footage
+  double threshold = 7;            // peak contrast over noise
+  double relative_contrast = 0.2;  // peak contrast over the usual peak contrast
+  double window = 0;               // side of the local mean [px]; 0: learned, 3 lengths
+  int min_area = 3;                // [px]
+};
+
+template <typename Visitor>
+void Describe(Visitor& visit, DetectorOptions& o) {
+  visit("polarity", o.polarity, {}, "", "animals are dark, bright, both, or auto: learn it");
+  visit("threshold", o.threshold, {.low = 2, .high = 100}, "sd",
+        "least peak contrast, in standard deviations of the local noise");
+  visit("relative-contrast", o.relative_contrast, {.low = 0, .high = 0.9}, "",
+        "least peak contrast, as a share of the usual one");
+  visit("window", o.window, {.low = 0, .high = 2000}, "px",
+        "window of the local background; 0: three times the usual length of an animal");
+  visit("min-area", o.min_area, {.low = 1, .high = 100000}, "px", "least area of an animal");
+}
+
+class Detector {
+ public:
+  explicit Detector(const DetectorOptions& options);
+
+  // Learns sign, contrast and length from frames of the footage's start.
+  void Learn(std::span<const GrayImage> images);
+
+  BlobFrame Detect(int frame, const GrayImage& image);
+
+  bool finds_dark() const { return dark_; }
+  bool finds_bright() const { return bright_; }
+  double usual_length() const { return usual_length_; }      // 4 sd along the major axis [px]
+  double usual_contrast() const { return usual_contrast_; }  // [grey levels]
+
+ private:
+  // What is remembered of a recent blob.
+  struct Trace {
+    double mass = 0, peak = 0, length = 0;
+  };
+
+  void FindBlobs(const GrayImage& image, bool dark, BlobFrame* found);
+  void Remember(const BlobFrame& found);
+  double Window(int image_height) const;
+
+  DetectorOptions options_;
+  bool dark_ = true, bright_ = false;
+  double usual_length_ = 0, usual_contrast_ = 0;  // 0: not known yet
+  std::deque<Trace> recent_;
+  int frames_since_summary_ = 0;
+};
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TRACK_DETECT_DETECTOR_H_

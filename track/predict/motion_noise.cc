@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "track/predict/motion_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flocklift {
+namespace {
+
+constexpr double kCap = 16;             // of a squared innovation
+constexpr std::size_t kLeastPaths = 3;  // fewer teach nothing
+constexpr std::size_t kBankSamples = 20000;
+
+struct Nearest {
+  int index = -1;
+  double distance2 = std::numeric_limits<double>::infinity();
+  double next_distance2 = std::numeric_limits<double>::infinity();
+
+  bool IsClear() const { return index >= 0 && 4 * distance2 < next_distance2; }
+};
+
+// Points sorted by x, for nearest neighbours without a scale.
+class SortedPoints {
+ public:
+  explicit SortedPoints(const std::vector<Vec2d>& points) : points_(points) {
+    for (std::size_t k = 0; k < points.size(); ++k) order_.push_back(static_cast<int>(k));
+    std::sort(order_.begin(), order_.end(), [&points](int a, int b) {
+      return points[a].x != points[b].x ? points[a].x < points[b].x : a < b;
+    });
+  }
+
+  Nearest Find(const Vec2d& p) const {
+    Nearest nearest;
+    const auto middle = std::lower_bound(order_.begin(), order_.end(), p.x,
+                                         [this](int k, double x) { return points_[k].x < x; });
+    auto right = middle;
+    auto left = middle;
+    while (left != order_.begin() || right != order_.end()) {
+      const double to_left = left != order_.begin() ? p.x - points_[*(left - 1)].x
+                                                    : std::numeric_limits<double>::infinity();
+      const double to_right =
+          right != order_.end() ? points_[*right].x - p.x : std::numeric_limits<double>::infinity();
+      const double gap = std::min(to_left, to_right);
+      if (gap * gap > nearest.next_distance2) break;
+      const int k = to_left <= to_right ? *--left : *right++;
+      const double dx = points_[k].x - p.x, dy = points_[k].y - p.y;
+      const double distance2 = dx * dx + dy * dy;
+      if (distance2 < nearest.distance2) {
+        nearest.next_distance2 = nearest.distance2;
+        nearest.distance2 = distance2;
+        nearest.index = k;
+      } else {
+        nearest.next_distance2 = std::min(nearest.next_distance2, distance2);
+      }
+    }
+    return nearest;
+  }
+
+ private:
+  const std::vector<Vec2d>& points_;
+  std::vector<int> order_;
+};
+
+struct Growing {
+  std::vector<Vec2d> positions;
+  std::vector<double> sizes;
+
+  // Where its own velocity takes it next.
+  Vec2d Ahead() const {
+    const Vec2d& p = positions.back();
+    if (positions.size() < 2) return p;
+    const Vec2d& before = positions[positions.size() - 2];
+    return {2 * p.x - before.x, 2 * p.y - before.y};
+  }
+};
+
+double Extent(const std::vector<Vec2d>& positions) {
+  double low_x = 1e18, high_x = -1e18, low_y = 1e18, high_y = -1e18;
+  for (const Vec2d& p : positions) {
+    low_x = std::min(low_x, p.x);
+    high_x = std::max(high_x, p.x);
+    low_y = std::min(low_y, p.y);
+    high_y = std::max(high_y, p.y);
+  }
+  return std::hypot(high_x - low_x, high_y - low_y);
+}
+
+double LogLikelihood(std::span<const Path> paths, const MotionNoise& noise) {
+  double sum = 0;
+  for (const Path& path : paths) {
+    const double q = noise.ProcessVariance(path.size), r = noise.MeasurementVariance(path.size);
+    MotionState state{path.positions[0], {0, 0}, r, 0, noise.speed_sd * noise.speed_sd};
+    for (std::size_t k = 1; k < path.positions.size(); ++k) {
+      Predict(&state, q);
+      if (k >= 3) {  // before, the velocity is not known
+        sum -= 0.5 * std::min(SquaredInnovation(state, path.positions[k], r), kCap) +
+               std::log(state.pp + r);
+      }
+      Update(&state, path.positions[k], r);
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Path> UnmistakablePaths(std::span<const BlobFrame> frames, int least) {
+  std::vector<Path> paths;
+  std::vector<Growing> growing;
+  const auto close = [&paths, least](Growing* g) {
+    if (static_cast<int>(g->positions.size()) < least) return;
+    std::nth_element(g->sizes.begin(), g->sizes.begin() + g->sizes.size() / 2, g->sizes.end());
+    const double size = g->sizes[g->sizes.size() / 2];
+    if (Extent(g->positions) < size) return;
+    paths.push_back({size, std::move(g->positions)});
+  };
+  for (const BlobFrame& frame : frames) {
+    std::vector<Vec2d> here, ahead;
+    for (const Blob& blob : frame.blobs) here.push_back(blob.center);
+    for (const Growing& g : growing) ahead.push_back(g.Ahead());
+    const SortedPoints blobs(here), expected(ahead);
+    std::vector<Growing> next;
+    std::vector<bool> taken(here.size(), false);
+    for (std::size_t k = 0; k < growing.size(); ++k) {
+      const Nearest to = blobs.Find(ahead[k]);
+      if (to.IsClear()) {
+        const Nearest back = expected.Find(here[to.index]);
+        if (back.IsClear() && back.index == static_cast<int>(k)) {
+          growing[k].positions.push_back(here[to.index]);
+          growing[k].sizes.push_back(SizeOf(frame.blobs[to.index]));
+          taken[to.index] = true;
+          next.push_back(std::move(growing[k]));
+          continue;
+        }
+      }
+      close(&growing[k]);
+    }
+    for (std::size_t j = 0; j < here.size(); ++j) {
+      if (!taken[j]) next.push_back({{here[j]}, {SizeOf(frame.blobs[j])}});
+    }
+    growing = std::move(next);
+  }
+  for (Growing& g : growing) close(&g);
+  return paths;
+}
+
+MotionNoise EstimateMotionNoise(std::span<const Path> paths, const MotionNoise& start) {
+  if (paths.size() < kLeastPaths) return start;
+  // Enough is enough: the first paths, in their order.
+  std::size_t used = 0, samples = 0;
+  while (used < paths.size() && samples < kBankSamples) samples += paths[used++].positions.size();
+  const std::span<const Path> some = paths.first(used);
+
+  MotionNoise best = start;
+  double sum = 0, count = 0;
+  for (const Path& path : some) {
+    for (std::size_t k = 1; k < path.positions.size(); ++k) {
+      const double dx = path.positions[k].x - path.positions[k - 1].x;
+      const double dy = path.positions[k].y - path.positions[k - 1].y;
+      sum += dx * dx + dy * dy;
+      count += 2;
+    }
+  }
+  best.speed_sd = std::max(1.5 * std::sqrt(sum / std::max(count, 1.0)), 0.5);
+
+  double best_likelihood = -std::numeric_limits<double>::infinity();
+  const MotionNoise base = best;
+  for (int a = -18; a <= 2; ++a) {
+    for (int m = -12; m <= -2; ++m) {
+      MotionNoise noise = base;
+      noise.acceleration = std::exp2(0.5 * a);
+      noise.measurement = std::exp2(0.5 * m);
+      const double likelihood = LogLikelihood(some, noise);
+      if (likelihood > best_likelihood) {
+        best_likelihood = likelihood;
+        best = noise;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace flocklift

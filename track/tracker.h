@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// From footage to 2D tracks: detect by local contrast, predict by Kalman filters whose noise is
+// learned from the footage, share blobs that hold several animals, assign globally, stitch tracks
+// over gaps, smooth, fill the gaps. Image positions in pixels (simulate/core/observations.h).
+
+#ifndef FLOCKLIFT_TRACK_TRACKER_H_
+#define FLOCKLIFT_TRACK_TRACKER_H_
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulate/core/observations.h"
+#include "simulate/core/options.h"
+#include "simulate/core/progress.h"
+#include "track/associate/flock_tracker.h"
+#include "track/associate/stitch.h"
+#include "track/detect/detector.h"
+
+namespace flocklift {
+
+struct TrackerOptions {
+  DetectorOptions detect;
+  AssociationOptions associate;
+  StitchOptions stitch;
+  int min_length = 5;       // a track with fewer sightings is dropped
+  double min_travel = 0.7;  // a long track that stays within so many of its sizes stands still
+};
+
+template <typename Visitor>
+void Describe(Visitor& visit, TrackerOptions& o) {
+  Describe(visit, o.detect);
+  Describe(visit, o.associate);
+  Describe(visit, o.stitch);
+  visit("min-length", o.min_length, {.low = 1, .high = 100000}, "frames",
+        "tracks with fewer sightings are dropped");
+  visit("min-travel", o.min_travel, {.low = 0, .high = 1000}, "sizes",
+        "what is seen for a second or longer and moves less is no animal; 0 keeps all");
+}
+
+// Wall time of each part; parts overlap, so they need not add up.
+struct TrackerTimings {
+  double decode_s = 0, detect_s = 0, associate_s = 0, finish_s = 0, total_s = 0;
+};
+
+struct TrackerReport {
+  std::int64_t frames = 0;
+  std::int64_t detections = 0;       // blobs
+  std::int64_t rows = 0;             // of all tracks
+  std::int64_t shared_rows = 0;      // of these, from blobs that held several animals
+  std::int64_t filled_rows = 0;      // of these, interpolated
+  std::int64_t joins = 0;            // tracks stitched to one before
+  std::int64_t still_tracks = 0;     // dropped: they did not move
+  MotionNoise noise;                 // as learned
+  double usual_length_px = 0;        // 4 sd of an animal's major axis
+  double usual_contrast = 0;         // [grey levels]
+  bool dark = true, bright = false;  // the sign of the animals' contrast
+  TrackerTimings timings;
+  std::vector<std::string> warnings;
+};
+
+struct TrackerResult {
+  Tracks tracks;  // ids 1, 2, ... by first frame; measured rows have shapes
+  TrackerReport report;
+};
+
+// Tracks what a video shows. Memory: a few dozen frames, and the tracks. `fps` overrides the
+// video's. Throws InputError when there is nothing to read (video_source.h).
+TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::path& path,
+                         const Progress& progress = {}, std::optional<double> fps = {});
+
+// Links detections that somebody else made, of a picture of the given size. `frames` by increasing
+// frame.
+TrackerResult TrackDetections(const TrackerOptions& options, std::span<const DetectionFrame> frames,
+                              double image_width, double image_height,
+                              std::optional<double> fps = {});
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TRACK_TRACKER_H_
