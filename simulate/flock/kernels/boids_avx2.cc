@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Compiled with -mavx2; run only where the processor has it.
+
+#include <immintrin.h>
+
+#include <cstdint>
+#include <xsimd/xsimd.hpp>
+
+namespace flocklift {
+namespace {
+
+std::uint64_t LaneMask(const xsimd::batch_bool<float, xsimd::avx2>& lanes) {
+  return static_cast<unsigned>(_mm256_movemask_ps(lanes.data));
+}
+
+// For every mask of 8 bits the numbers of its set bits, one a byte, from the lowest byte on.
+struct SetBits {
+  std::uint64_t of[256];
+};
+constexpr SetBits MakeSetBits() {
+  SetBits bits{};
+  for (unsigned mask = 0; mask < 256; ++mask) {
+    int count = 0;
+    for (std::uint64_t k = 0; k < 8; ++k) {
+      if ((mask >> k & 1U) != 0) bits.of[mask] |= k << (8 * count++);
+    }
+  }
+  return bits;
+}
+constexpr SetBits kSetBits = MakeSetBits();
+
+// Writes base + k for every set bit k; writes 8 numbers in all.
+std::uint32_t AppendSetBits(std::uint64_t mask, std::uint32_t base, std::uint32_t* list) {
+  const __m128i bytes = _mm_cvtsi64_si128(static_cast<long long>(kSetBits.of[mask]));
+  const __m256i numbers =
+      _mm256_add_epi32(_mm256_cvtepu8_epi32(bytes), _mm256_set1_epi32(static_cast<int>(base)));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(list), numbers);
+  return static_cast<std::uint32_t>(__builtin_popcountll(mask));
+}
+
+}  // namespace
+}  // namespace flocklift
+
+#include "simulate/flock/kernels/boids_kernel_inl.h"
+
+namespace flocklift {
+
+void BoidsKernelAvx2(const BoidsJob& job, int first_row, int last_row, std::uint32_t* candidates) {
+  BoidsRows<xsimd::batch<float, xsimd::avx2>>(job, first_row, last_row, candidates);
+}
+
+}  // namespace flocklift

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/flock/simulate_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "simulate/core/check.h"
+#include "simulate/core/rigid3.h"
+#include "simulate/flock/streams.h"
+
+namespace flocklift {
+namespace {
+
+constexpr double kGravity = 9.81;      // [m/s^2]
+constexpr double kStartSpread = 0.2;   // of the headings [rad]
+constexpr double kPredatorSize = 1.5;  // against the first species
+constexpr double kMostSpread = 2.5;    // individuals beyond so many sd are drawn in
+
+// Standard normal draws with mean exactly 0 (and none beyond kMostSpread, before centring).
+std::vector<double> CentredNormals(std::uint64_t seed, std::size_t first_agent, int count,
+                                   int which) {
+  std::vector<double> draws(static_cast<std::size_t>(count));
+  double sum = 0;
+  for (std::size_t k = 0; k < draws.size(); ++k) {
+    Rng rng = StreamOf(Stream::kBody, seed, first_agent + k, static_cast<std::uint32_t>(which));
+    draws[k] = std::clamp(rng.Normal(), -kMostSpread, kMostSpread);
+    sum += draws[k];
+  }
+  for (double& draw : draws) draw -= sum / static_cast<double>(count);
+  return draws;
+}
+
+// Where the flock heads at first: for its goal, if it has one.
+Vec3d CommonHeading(const Scene& scene, const SpeciesSpec& species, const Region& start,
+                    std::size_t species_index, double time) {
+  for (const GoalSpec& goal : scene.goals) {
+    if (!goal.species.empty() && goal.species != species.name) continue;
+    Vec3d way = GoalPosition(goal, time) - start.Center();
+    if (scene.dimensions == 2) way.z = 0;
+    if (Norm(way) > 1e-9) return Normalized(way);
+  }
+  Rng rng = StreamOf(Stream::kFlock, scene.seed, species_index);
+  const double angle = rng.Uniform(0, 2 * std::numbers::pi);
+  return {std::cos(angle), std::sin(angle), 0};
+}
+
+Region StartRegion(const Scene& scene, const SpeciesSpec& species) {
+  if (species.start) return *species.start;
+  const Vec3d quarter = 0.25 * (scene.box.high - scene.box.low);
+  return {scene.box.low + quarter, scene.box.high - quarter};
+}
+
+Animal MakeAnimal(const SpeciesSpec& species, std::uint64_t seed, std::size_t agent, double size) {
+  Rng rng = StreamOf(Stream::kBody, seed, agent, 2);
+  return {.id = static_cast<Id>(agent + 1),
+          .wingspan = species.wingspan * size,
+          .body_length = species.body_length * size,
+          .wingbeat_hz = species.wingbeat_hz * rng.Uniform(0.95, 1.05),
+          .wingbeat_phase = rng.Uniform(0, 2 * std::numbers::pi)};
+}
+
+void AddSpecies(const Scene& scene, std::size_t species_index, Population* population) {
+  const SpeciesSpec& species = scene.species[species_index];
+  Check(species.count >= 0, "a species cannot have fewer than 0 animals");
+  if (species.count == 0) return;
+  const std::size_t first = population->animals.size();
+  const bool linear = species.model.name == "linear";
+  const Region start = StartRegion(scene, species);
+  const Vec3d heading = CommonHeading(scene, species, start, species_index, population->world.time);
+
+  const std::vector<double> size_draws = CentredNormals(scene.seed, first, species.count, 0);
+  const std::vector<double> speed_draws = CentredNormals(scene.seed, first, species.count, 1);
+  double mean_size = 0;
+  for (const double draw : size_draws) {
+    mean_size += std::exp(species.wingspan_spread * draw) / static_cast<double>(species.count);
+  }
+  Swarm swarm{species.name, ResolveModel(species.model), {}, {}, {}};
+  for (std::size_t k = 0; k < size_draws.size(); ++k) {
+    const std::size_t agent = first + k;
+    const double size = std::exp(species.wingspan_spread * size_draws[k]) / mean_size;
+    population->animals.push_back(MakeAnimal(species, scene.seed, agent, size));
+
+    const double speed = species.speed * std::max(0.1, 1 + species.speed_spread * speed_draws[k]);
+    Rng rng = StreamOf(Stream::kStart, scene.seed, agent);
+    if (linear) {
+      swarm.position.push_back(start.Center() + Vec3d{rng.Normal(), rng.Normal(), rng.Normal()});
+      swarm.velocity.push_back(0.3 * Vec3d{rng.Normal(), rng.Normal(), rng.Normal()});
+    } else {
+      swarm.position.push_back({rng.Uniform(start.low.x, start.high.x),
+                                rng.Uniform(start.low.y, start.high.y),
+                                rng.Uniform(start.low.z, start.high.z)});
+      Vec3d aside{rng.Normal(), rng.Normal(), 0.3 * rng.Normal()};
+      if (scene.dimensions == 2) aside.z = 0;
+      swarm.velocity.push_back(speed * Normalized(heading + kStartSpread * aside));
+    }
+    swarm.cruising_speed.push_back(speed);
+  }
+  population->swarms.push_back(std::move(swarm));
+}
+
+// world_from_body of a bird that flies along v and turns with acceleration a.
+Quaternion Bank(const Vec3d& v, const Vec3d& a) {
+  const Vec3d forward = Normalized(v);
+  const Vec3d felt = a + Vec3d{0, 0, kGravity};
+  const Vec3d up = Normalized(felt - Dot(felt, forward) * forward);
+  if (forward == Vec3d{} || up == Vec3d{}) {
+    return QuaternionFromRotation(WorldFromLevelBody(v));
+  }
+  return QuaternionFromRotation(Rotation3d::FromRows(forward, Cross(up, forward), up).Inverse());
+}
+
+void AddOrientations(double fps, Trajectory* trajectory) {
+  std::vector<TrajectoryPoint>& points = trajectory->points;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::size_t before = k > 0 ? k - 1 : k;
+    const std::size_t after = k + 1 < points.size() ? k + 1 : k;
+    Vec3d a;
+    if (after > before) {
+      a = (fps / static_cast<double>(after - before)) *
+          (points[after].velocity - points[before].velocity);
+    }
+    points[k].world_from_body = Bank(points[k].velocity, a);
+  }
+}
+
+}  // namespace
+
+Population Populate(const Scene& scene) {
+  Check(scene.fps > 0 && scene.substeps > 0, "a scene needs frames and steps");
+  Check(scene.duration >= 0 && scene.warmup >= 0, "a scene cannot run backwards");
+  Population population;
+  population.world = {.seed = scene.seed,
+                      .dt = 1 / (scene.fps * scene.substeps),
+                      .time = 0,
+                      .dimensions = scene.dimensions,
+                      .box = scene.box,
+                      .goals = scene.goals,
+                      .predators = scene.predators};
+  const auto warmup_steps =
+      static_cast<double>(std::llround(scene.warmup * scene.fps) * scene.substeps);
+  population.world.time = -warmup_steps * population.world.dt;
+  for (std::size_t k = 0; k < scene.species.size(); ++k) AddSpecies(scene, k, &population);
+
+  const SpeciesSpec hunted = scene.species.empty() ? SpeciesSpec{} : scene.species.front();
+  for (const PredatorSpec& predators : scene.predators) {
+    for (int k = 0; k < predators.count; ++k) {
+      Animal predator = MakeAnimal(hunted, scene.seed, population.animals.size(), kPredatorSize);
+      predator.wingbeat_hz /= kPredatorSize;
+      population.animals.push_back(predator);
+    }
+  }
+  return population;
+}
+
+SceneResult SimulateScene(const Scene& scene, int threads, const Progress& progress) {
+  Population population = Populate(scene);
+  Engine engine(population.world, population.swarms, {.threads = threads, .kernel = ""});
+  const auto warmup_frames = static_cast<std::int64_t>(std::llround(scene.warmup * scene.fps));
+  const std::int64_t frames = scene.FrameCount();
+  const auto step_frame = [&] {
+    for (int k = 0; k < scene.substeps; ++k) engine.Step();
+  };
+
+  SceneResult result;
+  result.truth.fps = scene.fps;
+  result.truth.has_velocity = result.truth.has_orientation = true;
+  for (const Animal& animal : population.animals) {
+    result.truth.trajectories.push_back({.id = animal.id, .points = {}});
+    result.truth.trajectories.back().points.reserve(static_cast<std::size_t>(frames));
+  }
+  for (std::int64_t frame = 1 - warmup_frames; frame <= frames; ++frame) {
+    if (frame > 0) {
+      const FlockState state = engine.State();
+      for (std::size_t k = 0; k < state.size(); ++k) {
+        TrajectoryPoint point;
+        point.frame = static_cast<int>(frame);
+        point.position = state.position[k];
+        point.velocity = state.velocity[k];
+        result.truth.trajectories[k].points.push_back(point);
+      }
+    }
+    if (frame < frames) step_frame();
+    Report(progress, frame + warmup_frames, frames + warmup_frames);
+  }
+  for (Trajectory& trajectory : result.truth.trajectories) AddOrientations(scene.fps, &trajectory);
+
+  result.agents = static_cast<std::int64_t>(population.animals.size());
+  for (const PredatorSpec& predators : scene.predators) result.agents -= predators.count;
+  result.animals = std::move(population.animals);
+  result.steps = engine.steps();
+  result.mean_neighbours = engine.MeanNeighbours();
+  return result;
+}
+
+}  // namespace flocklift

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A scene, run: from the file's description to everybody's true path.
+
+#ifndef FLOCKLIFT_SIMULATE_FLOCK_SIMULATE_SCENE_H_
+#define FLOCKLIFT_SIMULATE_FLOCK_SIMULATE_SCENE_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "simulate/core/animal.h"
+#include "simulate/core/progress.h"
+#include "simulate/core/scene.h"
+#include "simulate/core/trajectory.h"
+#include "simulate/flock/engine.h"
+
+namespace flocklift {
+
+// The scene at the start of its warm-up. Individuals differ: their cruising speeds by a relative
+// standard deviation of speed_spread, their wingspans (with body lengths in proportion) by
+// wingspan_spread in the logarithm; the mean over a species is exactly the scene's. They start
+// anywhere in the species' region, headed for its goal, or together in a random direction.
+struct Population {
+  World world;
+  std::vector<Swarm> swarms;
+  std::vector<Animal> animals;  // by id, predators last
+};
+
+// Throws InputError for a model that the scene's file names wrongly, std::invalid_argument for a
+// scene that makes no sense.
+Population Populate(const Scene& scene);
+
+struct SceneResult {
+  Trajectories truth;           // with velocities and orientations; one id per animal for ever
+  std::vector<Animal> animals;  // by id
+  std::int64_t agents = 0;      // predators not counted
+  std::int64_t steps = 0;       // warm-up included
+  double mean_neighbours = 0;   // an animal and step
+  double mde_share = 0;         // share of animals that minimum-distance enforcement moved, a step
+};
+
+// Frame f shows the time (f - 1) / fps. Wings bank with the turn: the body's up is that of the felt
+// weight, acceleration less gravity.
+SceneResult SimulateScene(const Scene& scene, int threads, const Progress& progress);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_SIMULATE_FLOCK_SIMULATE_SCENE_H_
