@@ -24,13 +24,13 @@ namespace flocklift {
 // Defaults: birds of the size of a jackdaw at 10 m/s. Rates are per `time_unit`.
 template <typename T>
 struct BoidsParameters {
-  T d_s{2.0}, d_v{12.0};
-  T alpha_s{2.5}, alpha_c{0.15}, alpha_a{0.8}, alpha_b{8.0};
+  T d_s{5.0}, d_v{12.0};
+  T alpha_s{2.0}, alpha_c{0.05}, alpha_a{0.8}, alpha_b{8.0};
   T s_min{6.0}, s_max{14.0};
   T taper{0.0}, wall_taper{6.0};
-  T cruise{0.8}, level{0.5};
+  T cruise{1.2}, level{0.5};
   T goal_range{15.0};
-  T noise{1.5}, noise_time{0.6};
+  T noise{2.5}, noise_time{0.8};
   T time_unit{1.0};
 };
 
