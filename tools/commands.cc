@@ -3,10 +3,14 @@
 
 #include "tools/commands.h"
 
+#include "tools/evaluate_command.h"
+#include "tools/reconstruct_command.h"
+
 namespace flocklift {
 
-void AddCommands([[maybe_unused]] CLI::App& app) {
-  // AddSimulateCommand(app);
+void AddCommands(CLI::App& app) {
+  AddReconstructCommand(app);
+  AddEvaluateCommand(app);
 }
 
 }  // namespace flocklift

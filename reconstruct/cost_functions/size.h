@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Apparent size, seen from the animal's own heading. The body has second moments along its three
+// axes: wings s, trunk g (the heading), up u, in the proportion 1 : trunk : up, and its image has
+// the squared extent, summed over both image directions and divided by (wingspan / z)^2,
+//   Q = |P s|^2 + trunk |P g|^2 + up |P u|^2,   P a = (a_x - X a_z, a_y - Y a_z)
+// (P is the derivative of the projection times z, so a stretch towards the image's edge is in it).
+//   e = log size - (log wingspan + bias + ratio - L + log sqrt(Q))
+// `bias` is the individual's, `ratio`, `trunk` and `up` are the flock's: how a wingspan relates to
+// a box or a blob is not known beforehand. Wings lie level, s = g x up; where gravity is not known
+// they are anywhere around g, and s and u count by their mean.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_SIZE_H_
+#define FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_SIZE_H_
+
+#include <cmath>
+#include <optional>
+
+#include "reconstruct/cost_functions/path.h"
+
+namespace flocklift {
+
+struct SizeError {
+  static constexpr int kSize = 1;
+  double rate = 1;                 // knots per second
+  double softening = 1e-3;         // speed over depth below which a heading means nothing [1/s]
+  double log_size = 0;             // of the angular size
+  double log_wingspan = 0;         // of the flock's mean [log m]
+  std::optional<Vec3d> up_in_cam;  // unit vector, where gravity is known
+
+  // c: control points k-1 .. k+1, each (X, Y, L); log_trunk and log_up are logs of proportions.
+  template <typename T>
+  void operator()(const T* c, const T& bias, const T& ratio, const T& log_trunk, const T& log_up,
+                  T* error) const {
+    using std::exp;
+    using std::log;
+    const PathState<T> q = StateAtKnot(c, rate);
+    const Vec3<T> w = VelocityOverDepth(q);
+    const T speed2 = Dot(w, w) + softening * softening;
+    const auto seen = [&q](const Vec3<T>& a) {  // |P a|^2
+      const T u = a.x - q.x * a.z;
+      const T v = a.y - q.y * a.z;
+      return u * u + v * v;
+    };
+    const T whole = 2.0 + q.x * q.x + q.y * q.y;  // |P s|^2 + |P g|^2 + |P u|^2
+    const T along = seen(w) / speed2;
+    T across = 0.5 * (whole - along);
+    if (up_in_cam) {
+      const Vec3<T> up{T(up_in_cam->x), T(up_in_cam->y), T(up_in_cam->z)};
+      const Vec3<T> side = Cross(w, up);
+      // Of a heading within some 10 degrees of the vertical the side is less and less certain.
+      const T certain = 0.03 * speed2;
+      across = (seen(side) + certain * across) / (Dot(side, side) + certain);
+    }
+    const T extent = across + exp(log_trunk) * along + exp(log_up) * (whole - along - across);
+    error[0] = log_size - (log_wingspan + bias + ratio - q.l + 0.5 * log(extent));
+  }
+};
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_SIZE_H_

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/initialize/scale_guess.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace flocklift {
+namespace {
+
+// Of directions in space at random, the rms share across the line of sight is sqrt(2/3).
+constexpr double kShareAcross = 0.816;
+
+double Quantile(std::vector<double> values, double share, double otherwise) {
+  if (values.empty()) return otherwise;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(
+                                          share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+// Image speeds of a segment over half a second or what there is of it [1/s].
+void AddImageSpeeds(const Segment& segment, std::vector<double>* speeds) {
+  constexpr double kSpan = 0.5;
+  const auto& s = segment.sightings;
+  for (std::size_t begin = 0, end = 0; begin < s.size(); begin = end) {
+    while (end < s.size() && s[end].time - s[begin].time < kSpan) ++end;
+    const Sighting& last = s[std::min(end, s.size() - 1)];
+    const double dt = last.time - s[begin].time;
+    if (dt < 0.5 * kSpan) continue;
+    speeds->push_back(std::hypot(last.ray.x - s[begin].ray.x, last.ray.y - s[begin].ray.y) / dt);
+  }
+}
+
+double LateralSpread(const Segments& segments) {
+  struct Moments {
+    double n = 0, x = 0, y = 0, squares = 0;
+  };
+  std::map<int, Moments> frames;
+  for (const Segment& segment : segments.segments) {
+    for (const Sighting& s : segment.sightings) {
+      Moments& m = frames[s.frame];
+      m.n += 1;
+      m.x += s.ray.x;
+      m.y += s.ray.y;
+      m.squares += s.ray.x * s.ray.x + s.ray.y * s.ray.y;
+    }
+  }
+  double sum = 0, count = 0;
+  for (const auto& [frame, m] : frames) {
+    if (m.n < 2) continue;
+    sum += (m.squares - (m.x * m.x + m.y * m.y) / m.n) / 2;
+    count += m.n - 1;
+  }
+  return count > 0 ? std::sqrt(std::max(sum / count, 1e-8)) : 0.1;
+}
+
+}  // namespace
+
+ScaleGuess GuessScale(const Knowledge& knowledge, const Segments& segments) {
+  std::vector<double> speeds, sizes;
+  for (const Segment& segment : segments.segments) {
+    AddImageSpeeds(segment, &speeds);
+    for (const Sighting& s : segment.sightings) {
+      if (s.log_size) sizes.push_back(*s.log_size);
+    }
+  }
+  const double image_speed = std::max(Quantile(speeds, 0.5, 0.1), 1e-6);
+  const double log_size = Quantile(sizes, 0.5, 0);
+
+  ScaleGuess guess;
+  guess.lateral_spread = LateralSpread(segments);
+  if (knowledge.wingspan && !sizes.empty()) {
+    guess.log_depth = std::log(knowledge.wingspan->mean) - log_size;
+  } else if (knowledge.near && knowledge.far) {
+    guess.log_depth = 0.5 * std::log(*knowledge.near * *knowledge.far);
+  } else if (knowledge.speed) {
+    guess.log_depth = std::log(knowledge.speed->mean * kShareAcross / image_speed);
+  } else {
+    double sum = 0;
+    for (const Anchor& anchor : knowledge.anchors) {
+      sum += std::log(std::max(anchor.position.z, 1e-3));
+    }
+    guess.log_depth = sum / static_cast<double>(std::max<std::size_t>(1, knowledge.anchors.size()));
+  }
+  guess.log_speed = knowledge.speed ? std::log(knowledge.speed->mean)
+                                    : guess.log_depth + std::log(image_speed / kShareAcross);
+  guess.log_width =
+      knowledge.wingspan ? std::log(knowledge.wingspan->mean) : guess.log_depth + log_size;
+
+  // A flock is seldom deeper than several times its width; sizes tell the extremes apart.
+  const double spread = std::clamp(6 * guess.lateral_spread, 0.5, 1.5);
+  guess.log_near = guess.log_depth - spread;
+  guess.log_far = guess.log_depth + spread;
+  if (!sizes.empty() && knowledge.wingspan) {
+    guess.log_near = std::min(guess.log_near, guess.log_width - Quantile(sizes, 0.98, 0) - 0.2);
+    guess.log_far = std::max(guess.log_far, guess.log_width - Quantile(sizes, 0.02, 0) + 0.2);
+  }
+  if (knowledge.near) guess.log_near = std::log(*knowledge.near);
+  if (knowledge.far) guess.log_far = std::log(*knowledge.far);
+  if (guess.log_far <= guess.log_near + 0.05) {
+    (knowledge.far && !knowledge.near ? guess.log_near : guess.log_far) =
+        knowledge.far && !knowledge.near ? guess.log_far - 1 : guess.log_near + 1;
+  }
+  guess.log_depth = std::clamp(guess.log_depth, guess.log_near, guess.log_far);
+  return guess;
+}
+
+}  // namespace flocklift

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/initialize/segments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulate/camera/projection.h"
+#include "simulate/core/check.h"
+#include "simulate/core/trajectory.h"
+
+namespace flocklift {
+namespace {
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double Diagonal(double a, double b) { return std::sqrt(a * a + b * b); }
+
+bool IsMeasured(const Detection& d) { return d.confidence >= kMeasuredConfidence; }
+
+// Third differences over four successive measured frames; sd of white noise from their median.
+double EstimatePixelSd(const Tracks& tracks) {
+  std::vector<double> differences;
+  for (const Tracklet& tracklet : tracks.tracklets) {
+    const auto& d = tracklet.detections;
+    for (std::size_t k = 3; k < d.size(); ++k) {
+      if (d[k].frame - d[k - 3].frame != 3) continue;
+      if (!IsMeasured(d[k]) || !IsMeasured(d[k - 1]) || !IsMeasured(d[k - 2]) ||
+          !IsMeasured(d[k - 3])) {
+        continue;
+      }
+      const Vec2d p[4] = {d[k - 3].box.Center(), d[k - 2].box.Center(), d[k - 1].box.Center(),
+                          d[k].box.Center()};
+      differences.push_back(std::abs(p[3].x - 3 * p[2].x + 3 * p[1].x - p[0].x));
+      differences.push_back(std::abs(p[3].y - 3 * p[2].y + 3 * p[1].y - p[0].y));
+    }
+  }
+  constexpr double kMedianOfNormal = 0.6745;
+  return Median(std::move(differences)) / (kMedianOfNormal * std::sqrt(20.0));
+}
+
+double MedianBoxOverShape(const Tracks& tracks) {
+  std::vector<double> ratios;
+  for (const Tracklet& tracklet : tracks.tracklets) {
+    for (const Detection& d : tracklet.detections) {
+      if (!d.shape || !IsMeasured(d)) continue;
+      const double shape = Diagonal(d.shape->major, d.shape->minor);
+      const double box = Diagonal(d.box.width, d.box.height);
+      if (shape > 0 && box > 0) ratios.push_back(std::log(box / shape));
+    }
+  }
+  return Median(std::move(ratios));
+}
+
+// Pixels per unit of normalised coordinates around a ray: the root of the Jacobian's determinant.
+double LocalFocalLength(const Intrinsics& k, const Vec2d& ray) {
+  constexpr double kStep = 1e-5;
+  const Vec2d a = ProjectNormalized(k, Vec2d{ray.x + kStep, ray.y});
+  const Vec2d b = ProjectNormalized(k, Vec2d{ray.x - kStep, ray.y});
+  const Vec2d c = ProjectNormalized(k, Vec2d{ray.x, ray.y + kStep});
+  const Vec2d d = ProjectNormalized(k, Vec2d{ray.x, ray.y - kStep});
+  const double determinant = (a.x - b.x) * (c.y - d.y) - (a.y - b.y) * (c.x - d.x);
+  return std::sqrt(std::max(std::abs(determinant), 1e-30)) / (2 * kStep);
+}
+
+// Position and velocity by a straight line through up to four sightings on one side of a gap.
+struct Line {
+  Vec2d position, velocity;
+};
+Line FitLine(const Sighting* first, std::size_t count, double time) {
+  double st = 0, stt = 0;
+  Vec2d sp, stp;
+  for (std::size_t a = 0; a < count; ++a) {
+    const double t = first[a].time - time;
+    st += t;
+    stt += t * t;
+    sp = {sp.x + first[a].ray.x, sp.y + first[a].ray.y};
+    stp = {stp.x + t * first[a].ray.x, stp.y + t * first[a].ray.y};
+  }
+  const double n = static_cast<double>(count);
+  const double determinant = n * stt - st * st;
+  const Vec2d velocity{(n * stp.x - st * sp.x) / determinant,
+                       (n * stp.y - st * sp.y) / determinant};
+  return {{(sp.x - velocity.x * st) / n, (sp.y - velocity.y * st) / n}, velocity};
+}
+
+// How badly the motion before sighting k predicts the motion after it, as multiples of what noise
+// does to the two lines. Nothing near the ends.
+struct Mismatch {
+  double position = 0, velocity = 0;
+};
+std::optional<Mismatch> MismatchAt(const std::vector<Sighting>& s, std::size_t k) {
+  constexpr std::size_t kSide = 4;
+  if (k < kSide || k + kSide > s.size()) return std::nullopt;
+  const double time = 0.5 * (s[k - 1].time + s[k].time);
+  const Line before = FitLine(&s[k - kSide], kSide, time);
+  const Line after = FitLine(&s[k], kSide, time);
+  return Mismatch{
+      std::hypot(after.position.x - before.position.x, after.position.y - before.position.y),
+      std::hypot(after.velocity.x - before.velocity.x, after.velocity.y - before.velocity.y)};
+}
+
+// Cuts where the jump is the largest around and far beyond what the whole flock does.
+void CutJumps(double jump, std::vector<Segment>* segments, int* cuts) {
+  std::vector<double> positions, velocities;
+  for (const Segment& segment : *segments) {
+    for (std::size_t k = 0; k < segment.sightings.size(); ++k) {
+      if (const auto m = MismatchAt(segment.sightings, k)) {
+        positions.push_back(m->position);
+        velocities.push_back(m->velocity);
+      }
+    }
+  }
+  // Medians of the length of a normal 2-vector are 1.18 sd.
+  const double position_limit = jump * Median(std::move(positions)) / 1.18;
+  const double velocity_limit = jump * Median(std::move(velocities)) / 1.18;
+  if (!(position_limit > 0) || !(velocity_limit > 0)) return;
+  std::vector<Segment> result;
+  for (Segment& segment : *segments) {
+    const auto& s = segment.sightings;
+    std::vector<double> excess(s.size(), 0.0);
+    for (std::size_t k = 0; k < s.size(); ++k) {
+      if (const auto m = MismatchAt(s, k)) {
+        excess[k] = std::max(m->position / position_limit, m->velocity / velocity_limit);
+      }
+    }
+    std::size_t begin = 0;
+    for (std::size_t k = 1; k < s.size(); ++k) {
+      const std::size_t low = k < 4 ? 0 : k - 4;
+      const std::size_t high = std::min(s.size(), k + 5);
+      const bool largest = std::max_element(excess.begin() + static_cast<std::ptrdiff_t>(low),
+                                            excess.begin() + static_cast<std::ptrdiff_t>(high)) ==
+                           excess.begin() + static_cast<std::ptrdiff_t>(k);
+      if (excess[k] <= 1 || !largest) continue;
+      result.push_back({segment.id,
+                        {s.begin() + static_cast<std::ptrdiff_t>(begin),
+                         s.begin() + static_cast<std::ptrdiff_t>(k)}});
+      begin = k;
+      ++*cuts;
+    }
+    result.push_back({segment.id, {s.begin() + static_cast<std::ptrdiff_t>(begin), s.end()}});
+  }
+  *segments = std::move(result);
+}
+
+}  // namespace
+
+Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const Camera& camera,
+                      double fps) {
+  Check(fps > 0, "reconstruct needs a positive number of frames per second");
+  Segments result;
+  result.pixel_sd = std::max(EstimatePixelSd(tracks), options.min_pixel_sd);
+  result.size_from_shape = MedianBoxOverShape(tracks);
+  const int first_frame = SpanOf(tracks).first;
+  for (const Tracklet& tracklet : tracks.tracklets) {
+    Segment segment{tracklet.id, {}};
+    for (const Detection& d : tracklet.detections) {
+      ++result.rows;
+      const auto ray = RayThroughPixel(camera.intrinsics, d.box.Center());
+      if (!ray) {
+        ++result.unusable;
+        continue;
+      }
+      const double focal_px = LocalFocalLength(camera.intrinsics, *ray);
+      Sighting sighting;
+      sighting.frame = d.frame;
+      sighting.time = (d.frame - first_frame) / fps;
+      sighting.ray = *ray;
+      sighting.ray_sd = result.pixel_sd * (IsMeasured(d) ? 1 : options.interpolated_sd) / focal_px;
+      if (options.use_size && IsMeasured(d)) {
+        const double box_px = Diagonal(d.box.width, d.box.height);
+        const double size_px =
+            d.shape ? Diagonal(d.shape->major, d.shape->minor) * std::exp(result.size_from_shape)
+                    : box_px;
+        if (size_px > 0) sighting.log_size = std::log(size_px / focal_px);
+      }
+      segment.sightings.push_back(sighting);
+    }
+    if (!segment.sightings.empty()) result.segments.push_back(std::move(segment));
+  }
+  if (options.jump > 0) CutJumps(options.jump, &result.segments, &result.cuts);
+  return result;
+}
+
+}  // namespace flocklift

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Tracks as the solvers see them: rays instead of pixels, one segment per stretch that certainly
+// shows one animal. Rays are normalised coordinates (x/z, y/z) of the reference camera, lens
+// distortion taken out; sizes are angles, so that neither needs the focal length again.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_INITIALIZE_SEGMENTS_H_
+#define FLOCKLIFT_RECONSTRUCT_INITIALIZE_SEGMENTS_H_
+
+#include <optional>
+#include <vector>
+
+#include "simulate/camera/camera.h"
+#include "simulate/core/observations.h"
+#include "simulate/core/vec3.h"
+
+namespace flocklift {
+
+// One detection. A point at depth z on the ray has camera coordinates (z x, z y, z).
+struct Sighting {
+  int frame = 0;
+  double time = 0;                 // since the first frame of the sequence [s]
+  Vec2d ray;                       // (x/z, y/z)
+  double ray_sd = 1;               // of either coordinate
+  std::optional<double> log_size;  // log of the angular size; absent on interpolated rows
+};
+
+// One animal without a cut, by increasing frame. Several segments may carry the same id.
+struct Segment {
+  Id id = 0;
+  std::vector<Sighting> sightings;
+};
+
+struct SegmentOptions {
+  double min_pixel_sd = 0.25;  // floor of the noise of an image position [px]
+  double jump = 12;            // cut where the motion jumps by so many robust sds; 0: never
+  double interpolated_sd = 5;  // sd of interpolated rows over that of measured ones
+  bool use_size = true;
+};
+
+struct Segments {
+  std::vector<Segment> segments;  // by id, then by time
+  double pixel_sd = 0;            // estimated noise of an image position [px]
+  int cuts = 0;                   // where the image motion jumped
+  int rows = 0;                   // detections in all segments
+  int unusable = 0;               // detections without a ray (beyond the fold of the distortion)
+  double size_from_shape = 0;     // log of (size by box over size by shape), median; 0 without
+};
+
+// Every detection comes into exactly one segment. The noise is estimated from third differences of
+// the image positions (white noise of sd s gives them sqrt(20) s, a smooth flight next to nothing).
+// The size is sqrt(width^2 + height^2) of the box or, where there is a shape, that of its axes
+// times the flock's median ratio of the two: the same for any direction of a stretched body.
+Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const Camera& camera,
+                      double fps);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_INITIALIZE_SEGMENTS_H_

@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/reconstruct.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "reconstruct/initialize/scale_guess.h"
+#include "reconstruct/orientation.h"
+#include "simulate/core/check.h"
+#include "simulate/core/options.h"
+
+namespace flocklift {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+// The user's knowledge in the axes of the camera.
+Knowledge InCameraAxes(const ReconstructOptions& options, const Camera& camera) {
+  Knowledge knowledge = options.knowledge;
+  for (Anchor& anchor : knowledge.anchors) {
+    anchor.position = camera.CamFromWorld(anchor.frame) * anchor.position;
+    Check(anchor.position.z > 0, "the anchor of id " + std::to_string(anchor.id) + " in frame " +
+                                     std::to_string(anchor.frame) + " lies behind the camera");
+  }
+  if (camera.KnowsGravity()) {
+    knowledge.up_in_cam = camera.CamFromWorld(1).rotation * Vec3d{0, 0, 1};
+  } else if (options.pitch_deg) {
+    const double pitch = *options.pitch_deg * kDegree;
+    knowledge.up_in_cam = Vec3d{0, -std::cos(pitch), std::sin(pitch)};
+  }
+  return knowledge;
+}
+
+CobylaOptions CobylaFor(const ReconstructOptions& options, const Knowledge& knowledge,
+                        const Segments& segments) {
+  CobylaOptions cobyla = options.cobyla;
+  const ScaleGuess guess = GuessScale(knowledge, segments);
+  if (cobyla.lambda_speed <= 0) cobyla.lambda_speed = std::exp(guess.log_speed);
+  if (cobyla.near <= 0) cobyla.near = std::exp(guess.log_near);
+  if (cobyla.far <= 0) cobyla.far = std::exp(guess.log_far);
+  return cobyla;
+}
+
+double MedianRelativeSd(const std::vector<SolvedPath>& paths, double scale_sd) {
+  std::vector<double> sds;
+  for (const SolvedPath& path : paths) {
+    for (const SolvedPoint& p : path) {
+      sds.push_back(
+          std::sqrt(std::max(0.0, p.sd_log_depth * p.sd_log_depth - scale_sd * scale_sd)));
+    }
+  }
+  if (sds.empty()) return 0;
+  const auto middle = sds.begin() + static_cast<std::ptrdiff_t>(sds.size() / 2);
+  std::nth_element(sds.begin(), middle, sds.end());
+  return *middle;
+}
+
+Trajectories Assemble(const Camera& camera, const Knowledge& knowledge, const Segments& segments,
+                      const std::vector<SolvedPath>& paths, double fps, bool has_sd) {
+  const Vec3d up = knowledge.up_in_cam.value_or(Vec3d{0, -1, 0});
+  std::map<Id, Trajectory> by_id;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const Segment& segment = segments.segments[i];
+    Trajectory& trajectory = by_id[segment.id];
+    trajectory.id = segment.id;
+    for (std::size_t k = 0; k < paths[i].size(); ++k) {
+      const SolvedPoint& p = paths[i][k];
+      TrajectoryPoint point;
+      point.frame = segment.sightings[k].frame;
+      const Rigid3d world_from_cam = camera.CamFromWorld(point.frame).Inverse();
+      point.position = world_from_cam * p.position_in_cam;
+      point.velocity = world_from_cam.rotation * p.velocity_in_cam;
+      const Rotation3d cam_from_body =
+          WorldFromFlyingBody(p.velocity_in_cam, p.acceleration_in_cam, up);
+      const Vec3d forward = world_from_cam.rotation * (cam_from_body * Vec3d{1, 0, 0});
+      const Vec3d left = world_from_cam.rotation * (cam_from_body * Vec3d{0, 1, 0});
+      const Vec3d body_up = world_from_cam.rotation * (cam_from_body * Vec3d{0, 0, 1});
+      point.world_from_body =
+          QuaternionFromRotation(Rotation3d::FromRows(forward, left, body_up).Inverse());
+      point.sd_depth = p.sd_log_depth * p.position_in_cam.z;
+      trajectory.points.push_back(point);
+    }
+  }
+  Trajectories result;
+  result.fps = fps;
+  result.has_velocity = result.has_orientation = true;
+  result.has_sd_depth = has_sd;
+  for (auto& [id, trajectory] : by_id) result.trajectories.push_back(std::move(trajectory));
+  return result;
+}
+
+std::string Percent(double share) {
+  const long tenths = std::lround(share * 1000);
+  return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " %";
+}
+
+// The image of a flock that flies straight past shows almost nothing of relative depth but speed.
+double MedianTurn(const std::vector<SolvedPath>& paths) {
+  std::vector<double> turns;
+  for (const SolvedPath& path : paths) {
+    if (path.size() < 2) continue;
+    const Vec3d a = Normalized(path.front().velocity_in_cam);
+    const Vec3d b = Normalized(path.back().velocity_in_cam);
+    const Vec3d m = Normalized(path[path.size() / 2].velocity_in_cam);
+    const auto angle = [](const Vec3d& u, const Vec3d& v) {
+      return std::acos(std::clamp(Dot(u, v), -1.0, 1.0));
+    };
+    turns.push_back(std::max(angle(a, m) + angle(m, b), angle(a, b)));
+  }
+  if (turns.empty()) return 0;
+  std::sort(turns.begin(), turns.end());
+  return turns[turns.size() / 2];
+}
+
+std::string DescribeObservability(const Knowledge& knowledge, const Segments& segments,
+                                  const std::vector<SolvedPath>& paths,
+                                  const ReconstructReport& report) {
+  bool sizes = false;
+  for (const Segment& segment : segments.segments) {
+    for (const Sighting& s : segment.sightings) sizes |= s.log_size.has_value();
+  }
+  constexpr double kStraight = 30 * kDegree;
+  const bool straight = MedianTurn(paths) < kStraight;
+  std::string text = "relative depth rests on ";
+  text += sizes ? "apparent size and image speed" : "image speed";
+  text += straight ? "; the paths are nearly straight, so perspective along them says little"
+                   : " and on perspective along curved paths";
+  if (knowledge.up_in_cam) text += "; level flight helps";
+  text += "; median relative sd " + Percent(report.relative_sd) + ", common scale " +
+          Percent(report.scale_sd) + " (" + report.scale_from + ")";
+  return text;
+}
+
+void WarnOfDisagreement(const Knowledge& knowledge, const BatchReport& batch,
+                        ReconstructReport* report) {
+  if (!knowledge.speed || !knowledge.wingspan || !knowledge.use_size) return;
+  const double disagreement = batch.speed_against_size.mean;
+  const double sds = std::abs(disagreement) / batch.speed_against_size.sd;
+  if (!(sds > 1)) return;
+  report->warnings.push_back(
+      "speed and wingspan disagree: by the sizes the flock flies " +
+      Percent(std::abs(std::expm1(disagreement))) + (disagreement > 0 ? " faster" : " slower") +
+      " than stated (" + std::to_string(std::lround(sds * 10) / 10) + "." +
+      std::to_string(std::lround(sds * 10) % 10) + " sd); the scale is a compromise");
+}
+
+}  // namespace
+
+const char* NameOf(ReconstructMethod method) {
+  return method == ReconstructMethod::kBatch ? "batch" : "cobyla";
+}
+
+ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& tracks,
+                              const Camera& camera, double fps, int threads,
+                              const Progress& progress) {
+  CheckKnowledge(options.knowledge);
+  CheckOptions(options.batch);
+  const Knowledge knowledge = InCameraAxes(options, camera);
+  const bool is_batch = options.method == ReconstructMethod::kBatch;
+  const Segments segments = MakeSegments({.min_pixel_sd = options.batch.pixel_sd,
+                                          .jump = is_batch ? options.batch.jump : 0,
+                                          .use_size = knowledge.use_size},
+                                         tracks, camera, fps);
+  ReconstructResult result;
+  ReconstructReport& report = result.report;
+  report.method = options.method;
+  report.segments = static_cast<int>(segments.segments.size());
+  report.cuts = segments.cuts;
+  report.pixel_sd = segments.pixel_sd;
+  report.scale_from = ScaleSources(knowledge);
+  if (segments.unusable > 0) {
+    report.warnings.push_back(std::to_string(segments.unusable) +
+                              " rows lie where the lens model sees nothing and were left out");
+  }
+  if (segments.segments.empty()) {
+    report.warnings.push_back("there is no track to reconstruct");
+    return result;
+  }
+  if (!is_batch) {
+    const CobylaResult cobyla = SolveCobyla(CobylaFor(options, knowledge, segments),
+                                            options.cobyla_first_depths, segments, fps, progress);
+    report.final_cost = cobyla.report.final_cost;
+    report.iterations = cobyla.report.frames;
+    report.converged = cobyla.report.exhausted == 0;
+    report.observability =
+        "relative depth rests on constant speed and on the pull of the flock's middle; the method "
+        "knows no error of its depths";
+    result.trajectories = Assemble(camera, knowledge, segments, cobyla.paths, fps, false);
+    return result;
+  }
+  const BatchResult batch = SolveBatch(options.batch, knowledge, segments, fps, threads, progress);
+  report.initial_cost = batch.report.initial_cost;
+  report.final_cost = batch.report.final_cost;
+  report.iterations = batch.report.iterations;
+  report.converged = batch.report.converged;
+  report.scale_sd = batch.report.scale_sd;
+  report.relative_sd = MedianRelativeSd(batch.paths, report.scale_sd);
+  report.terms = batch.report.terms;
+  report.spreads = batch.report.spreads;
+  if (!report.converged) {
+    report.warnings.push_back("the solver stopped before the cost stood still");
+  }
+  WarnOfDisagreement(knowledge, batch.report, &report);
+  report.observability = DescribeObservability(knowledge, segments, batch.paths, report);
+  result.trajectories = Assemble(camera, knowledge, segments, batch.paths, fps, true);
+  return result;
+}
+
+}  // namespace flocklift

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Normal equations of many paths that share a few unknowns. One path has n banded unknowns (its
+// control points, three scalars each, interleaved) and a border of k: `own` scalars of its own
+// first, then the flock's:
+//   [ A    U ] [dx]   [ -g_x ]      A: n x n, half-bandwidth 11 (four control points)
+//   [ U^T  D ] [db] = [ -g_b ]      U: n x k,  D: k x k
+// Eliminating the band costs O(n (12^2 + 12 k)): linear in the length of the path. The flock's part
+// is the sum of all paths' Schur complements. (Golub and Van Loan, Matrix Computations, 4.3.5; the
+// selected inverse is the recursion of Takahashi, Fagan and Chin, 1973.)
+
+#ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_ARROW_SYSTEM_H_
+#define FLOCKLIFT_RECONSTRUCT_SOLVE_ARROW_SYSTEM_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace flocklift::internal {
+
+// One whitened residual and its derivatives: by 12 neighbouring unknowns of the band, from
+// `first`, and by a few of the border.
+struct ResidualRow {
+  int first = 0;
+  double residual = 0;
+  std::array<double, 12> path{};
+  std::array<std::pair<int, double>, 10> border;
+  int border_count = 0;
+
+  void AddBorder(int index, double derivative) {
+    for (int a = 0; a < border_count; ++a) {
+      if (border[a].first == index) {
+        border[a].second += derivative;
+        return;
+      }
+    }
+    border[border_count++] = {index, derivative};
+  }
+};
+
+class ArrowSystem {
+ public:
+  static constexpr int kBand = 12;  // stored entries of a row: columns i - 11 .. i
+
+  ArrowSystem(int n, int own, int shared);
+
+  int n() const { return n_; }
+  int border() const { return k_; }
+
+  void SetZero();
+  // A system that asks for no step at all and says nothing of the flock.
+  void SetIdentity();
+  // Adds weight * (J^T J) and the gradient weight * J^T r. Entries of `path` past n are ignored.
+  void Add(const ResidualRow& row, double weight = 1);
+
+  // Factorises the band and the path's own scalars with their diagonals times 1 + damping, and
+  // gives the flock's share: matrix += S, gradient += g of the reduced system. False when the
+  // system is not positive definite.
+  bool Reduce(double damping, Eigen::MatrixXd* shared_matrix, Eigen::VectorXd* shared_gradient);
+
+  // After Reduce: the step of the path (n values, then its own scalars) for a step of the flock's
+  // unknowns, and what the quadratic model of this path then falls by (own share).
+  Eigen::VectorXd BackSubstitute(const Eigen::VectorXd& shared_step) const;
+
+  // After Reduce(0): covariances, given that of the flock's unknowns.
+  struct Posterior {
+    std::vector<double> band;  // n x 12: of unknowns i and i - 11 .. i, column 11 the variance
+    Eigen::MatrixXd border;    // k x k
+    Eigen::MatrixXd path_to_border;  // n x k: E, with x's covariance A^-1 + E border E^T
+  };
+  Posterior Covariance(const Eigen::MatrixXd& shared_covariance) const;
+
+  // Of the row's value J (x, b) under the posterior.
+  double VarianceOf(const Posterior& posterior, const ResidualRow& row) const;
+
+  // Of a mean over the path: variance of weights^T x that does not come from the flock's unknowns,
+  // and its sensitivity to them.
+  std::pair<double, Eigen::VectorXd> Functional(const Eigen::VectorXd& weights) const;
+
+ private:
+  void SolveBandInPlace(Eigen::Ref<Eigen::VectorXd> x) const;
+
+  int n_, own_, k_;
+  std::vector<double> band_;          // n x 12 lower band of A
+  Eigen::MatrixXd border_;            // k x n: U^T
+  Eigen::MatrixXd corner_;            // k x k: D
+  Eigen::VectorXd gradient_;          // n + k
+  std::vector<double> factor_;        // n x 12: Cholesky factor of A
+  Eigen::MatrixXd reduced_border_;    // k x n: (L^-1 U)^T
+  Eigen::VectorXd reduced_gradient_;  // n: L^-1 g_x
+  Eigen::MatrixXd own_factor_;        // own x own: Cholesky factor of the own Schur complement
+  Eigen::MatrixXd own_to_shared_;     // own x shared: Schur complement's block
+  Eigen::VectorXd own_gradient_;
+};
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_RECONSTRUCT_SOLVE_ARROW_SYSTEM_H_

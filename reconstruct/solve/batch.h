@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Depth by one solve over the whole sequence: the path of every animal and the flock's few unknowns
+// that best explain rays, sizes and what is known of flight (batch_problem.h), by Gauss-Newton with
+// Levenberg's damping per animal, from a search on a grid (depth_search.h). Spreads of the priors
+// are re-estimated between solves by expectation maximisation with the posterior covariances.
+// Linear in frames; parallel over animals; the same at any number of threads.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_H_
+#define FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_H_
+
+#include <string>
+#include <vector>
+
+#include "reconstruct/initialize/segments.h"
+#include "reconstruct/knowledge.h"
+#include "reconstruct/solve/batch_options.h"
+#include "reconstruct/solve/solved_path.h"
+#include "simulate/core/progress.h"
+
+namespace flocklift {
+
+// How well one kind of residual is met at the solution, in units of its sd.
+struct TermStatistics {
+  std::string name;
+  long count = 0;
+  double rms = 0;
+  double outliers = 0;  // share beyond three sds
+};
+
+struct BatchReport {
+  double initial_cost = 0, final_cost = 0;
+  int iterations = 0;
+  bool converged = false;
+  double scale_sd = 0;           // relative sd of the common scale
+  Uncertain flock_speed;         // posterior [m/s]
+  Uncertain size_ratio;          // posterior, relative to the wingspan's prior
+  Uncertain speed_against_size;  // log of (speed by the sizes over speed by its prior)
+  std::vector<std::pair<std::string, double>> spreads;  // estimated
+  std::vector<TermStatistics> terms;
+};
+
+struct BatchResult {
+  std::vector<SolvedPath> paths;  // as the segments
+  BatchReport report;
+};
+
+// Anchors and up_in_cam of `knowledge` are in the axes of the reference camera. Every sighting gets
+// a finite point, however little is known of it.
+BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
+                       const Segments& segments, double fps, int threads, const Progress& progress);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_H_

@@ -1,0 +1,390 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/solve/batch_problem.h"
+
+#include <ceres/jet.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reconstruct/cost_functions/acceleration.h"
+#include "reconstruct/cost_functions/level_flight.h"
+#include "reconstruct/cost_functions/reprojection.h"
+#include "reconstruct/cost_functions/size.h"
+#include "reconstruct/cost_functions/speed.h"
+
+namespace flocklift::internal {
+namespace {
+
+constexpr int kPathWidth = 9;  // unknowns of three control points
+
+// An error at one knot with its derivatives by the three control points around it and the border.
+struct Feature {
+  double value = 0;
+  std::array<double, kPathWidth> path{};
+  std::array<std::pair<int, double>, 5> border;
+  int border_count = 0;
+};
+
+// Evaluates an error functor of three control points and `Extra` further scalars, whose places in
+// the border are `places`.
+template <int Size, int Extra, typename Error>
+std::array<Feature, Size> Evaluate(bool derivatives, const double* path,
+                                   const std::array<double, Extra>& extra,
+                                   const std::array<int, Extra>& places, const Error& error) {
+  std::array<Feature, Size> features;
+  if (!derivatives) {
+    std::array<double, Size> values;
+    error(path, extra.data(), values.data());
+    for (int a = 0; a < Size; ++a) features[a].value = values[a];
+    return features;
+  }
+  using Jet = ceres::Jet<double, kPathWidth + Extra>;
+  std::array<Jet, kPathWidth> c;
+  for (int a = 0; a < kPathWidth; ++a) c[a] = Jet(path[a], a);
+  std::array<Jet, Extra> x;
+  for (int a = 0; a < Extra; ++a) x[a] = Jet(extra[a], kPathWidth + a);
+  std::array<Jet, Size> values;
+  error(c.data(), x.data(), values.data());
+  for (int a = 0; a < Size; ++a) {
+    features[a].value = values[a].a;
+    for (int b = 0; b < kPathWidth; ++b) features[a].path[b] = values[a].v[b];
+    for (int b = 0; b < Extra; ++b) {
+      features[a].border[b] = {places[b], values[a].v[kPathWidth + b]};
+    }
+    features[a].border_count = Extra;
+  }
+  return features;
+}
+
+// Turns the errors of successive knots into independent unit residuals (markov.h). A gap starts
+// the process afresh.
+class MarkovRows {
+ public:
+  MarkovRows(Term term, const MarkovProcess& process, double dt)
+      : term_(term),
+        sd_(process.sd),
+        rho_(process.Correlation(dt)),
+        step_sd_(process.StepSd(rho_)) {}
+
+  void Push(int knot, const Feature& feature, const RowSink& take) {
+    ResidualRow row;
+    if (knot == knot_ + 1) {
+      row.first = 3 * knot_;
+      row.residual = (feature.value - rho_ * before_.value) / step_sd_;
+      for (int a = 0; a < kPathWidth; ++a) {
+        row.path[a] -= rho_ * before_.path[a] / step_sd_;
+        row.path[a + 3] += feature.path[a] / step_sd_;
+      }
+      for (int a = 0; a < before_.border_count; ++a) {
+        row.AddBorder(before_.border[a].first, -rho_ * before_.border[a].second / step_sd_);
+      }
+      for (int a = 0; a < feature.border_count; ++a) {
+        row.AddBorder(feature.border[a].first, feature.border[a].second / step_sd_);
+      }
+    } else {
+      row.first = 3 * knot;
+      row.residual = feature.value / sd_;
+      for (int a = 0; a < kPathWidth; ++a) row.path[a] = feature.path[a] / sd_;
+      for (int a = 0; a < feature.border_count; ++a) {
+        row.AddBorder(feature.border[a].first, feature.border[a].second / sd_);
+      }
+    }
+    take(term_, row);
+    before_ = feature;
+    knot_ = knot;
+  }
+
+ private:
+  Term term_;
+  double sd_, rho_, step_sd_;
+  int knot_ = -2;
+  Feature before_;
+};
+
+// All Markov errors of one knot, in a fixed order.
+template <typename Take>
+void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
+                    bool derivatives, int knot, const Take& take) {
+  const double rate = 1 / model.knot_interval;
+  const double* c = &bird.path[3 * static_cast<std::size_t>(knot)];
+
+  const AccelerationError acceleration{.rate = rate, .reference_depth = bird.reference_depth};
+  const auto a = Evaluate<3, 0>(
+      derivatives, c, std::array<double, 0>{}, std::array<int, 0>{},
+      [&](const auto* path, const auto*, auto* error) { acceleration(path, error); });
+  for (int axis = 0; axis < 3; ++axis) take(Term::kAcceleration, axis, a[axis]);
+
+  const SpeedError speed{.rate = rate, .softening = bird.softening};
+  take(Term::kSpeed, 0,
+       Evaluate<1, 1>(
+           derivatives, c, std::array{bird.own[kOwnLogSpeed]}, std::array<int, 1>{kOwnLogSpeed},
+           [&](const auto* path, const auto* x, auto* error) { speed(path, x[0], error); })[0]);
+
+  if (model.use_climb && model.up_in_cam) {
+    const LevelFlightError level{
+        .rate = rate, .softening = bird.softening, .up_in_cam = *model.up_in_cam};
+    take(
+        Term::kClimb, 0,
+        Evaluate<1, 0>(derivatives, c, std::array<double, 0>{}, std::array<int, 0>{},
+                       [&](const auto* path, const auto*, auto* error) { level(path, error); })[0]);
+  }
+  if (model.use_size && bird.size[knot]) {
+    const SizeError size{.rate = rate,
+                         .softening = bird.softening,
+                         .log_size = *bird.size[knot],
+                         .log_wingspan = model.log_wingspan,
+                         .up_in_cam = model.up_in_cam};
+    take(Term::kSize, 0,
+         Evaluate<1, 4>(derivatives, c,
+                        std::array{bird.own[kOwnSizeBias], shared[kSizeRatio], shared[kLogTrunk],
+                                   shared[kLogUp]},
+                        std::array<int, 4>{kOwnSizeBias, kOwnUnknowns + kSizeRatio,
+                                           kOwnUnknowns + kLogTrunk, kOwnUnknowns + kLogUp},
+                        [&](const auto* path, const auto* x, auto* error) {
+                          size(path, x[0], x[1], x[2], x[3], error);
+                        })[0]);
+  }
+  if (model.use_depth) {
+    const double place = std::clamp((bird.first_knot + knot) * model.knot_interval / kDepthKnotTime,
+                                    0.0, model.depth_knots - 1.0);
+    const int left = std::min(static_cast<int>(place), std::max(0, model.depth_knots - 2));
+    const double right_share = place - left;
+    Feature depth;
+    depth.value = (c[2] + 4 * c[5] + c[8]) / 6 - (1 - right_share) * shared[kFirstDepthKnot + left];
+    depth.path[2] = depth.path[8] = 1.0 / 6;
+    depth.path[5] = 4.0 / 6;
+    depth.border[depth.border_count++] = {kOwnUnknowns + kFirstDepthKnot + left, right_share - 1};
+    if (model.depth_knots > 1) {
+      depth.value -= right_share * shared[kFirstDepthKnot + left + 1];
+      depth.border[depth.border_count++] = {kOwnUnknowns + kFirstDepthKnot + left + 1,
+                                            -right_share};
+    }
+    take(Term::kDepth, 0, depth);
+  }
+}
+
+void TakeReprojections(const Bird& bird, const RowSink& take) {
+  for (std::size_t k = 0; k < bird.places.size(); ++k) {
+    const Bird::Place& place = bird.places[k];
+    const Sighting& sighting = bird.segment->sightings[k];
+    const ReprojectionError error{place.weights, sighting.ray, sighting.ray_sd};
+    std::array<double, 2> residuals;
+    error(&bird.path[3 * static_cast<std::size_t>(place.interval)], residuals.data());
+    for (int axis = 0; axis < 2; ++axis) {
+      ResidualRow row;
+      row.first = 3 * place.interval;
+      row.residual = residuals[axis];
+      for (int a = 0; a < 4; ++a) row.path[3 * a + axis] = place.weights[a] / sighting.ray_sd;
+      take(Term::kReprojection, row);
+    }
+  }
+}
+
+void TakeAnchors(const Bird& bird, const RowSink& take) {
+  using Jet = ceres::Jet<double, 12>;
+  for (const Bird::Known& known : bird.anchors) {
+    std::array<Jet, 3> q;
+    for (int a = 0; a < 12; ++a) {
+      q[a % 3] += known.place.weights[a / 3] *
+                  Jet(bird.path[3 * static_cast<std::size_t>(known.place.interval) + a], a);
+    }
+    const Jet z = exp(q[2]);
+    const std::array<Jet, 3> error = {z * q[0] - known.position_in_cam.x,
+                                      z * q[1] - known.position_in_cam.y,
+                                      z - known.position_in_cam.z};
+    for (const Jet& e : error) {
+      ResidualRow row;
+      row.first = 3 * known.place.interval;
+      row.residual = e.a / known.sd;
+      for (int a = 0; a < 12; ++a) row.path[a] = e.v[a] / known.sd;
+      take(Term::kAnchor, row);
+    }
+  }
+}
+
+// Soft walls at near and far.
+void TakeBounds(const BatchModel& model, const Bird& bird, const RowSink& take) {
+  constexpr double kSoftness = 0.02;  // in log depth
+  if (!model.log_near && !model.log_far) return;
+  for (int knot = 0; knot < bird.knots; ++knot) {
+    const double* c = &bird.path[3 * static_cast<std::size_t>(knot)];
+    const double l = (c[2] + 4 * c[5] + c[8]) / 6;
+    double beyond = 0;
+    if (model.log_near && l < *model.log_near) beyond = l - *model.log_near;
+    if (model.log_far && l > *model.log_far) beyond = l - *model.log_far;
+    if (beyond == 0) continue;
+    ResidualRow row;
+    row.first = 3 * knot;
+    row.residual = beyond / kSoftness;
+    row.path[2] = row.path[8] = 1 / (6 * kSoftness);
+    row.path[5] = 4 / (6 * kSoftness);
+    take(Term::kBounds, row);
+  }
+}
+
+// Nobody flies at several times the flock's speed: keeps the velocity of the shortest sighting
+// proper. Linear in the control points.
+void TakeAnyVelocity(const BatchModel& model, const Bird& bird, const RowSink& take) {
+  const double sd = 60 * bird.softening;  // the softening is a twentieth of the speed
+  const double scale = 0.5 / (model.knot_interval * sd);
+  for (int axis = 0; axis < 3; ++axis) {
+    ResidualRow row;
+    row.residual = scale * (bird.path[6 + axis] - bird.path[axis]);
+    row.path[axis] = -scale;
+    row.path[6 + axis] = scale;
+    take(Term::kAnyVelocity, row);
+  }
+}
+
+void TakeIndividual(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
+                    const RowSink& take) {
+  ResidualRow speed;
+  speed.residual = (bird.own[kOwnLogSpeed] - shared[kFlockLogSpeed]) / model.spreads.speed_between;
+  speed.AddBorder(kOwnLogSpeed, 1 / model.spreads.speed_between);
+  speed.AddBorder(kOwnUnknowns + kFlockLogSpeed, -1 / model.spreads.speed_between);
+  take(Term::kSpeedSpread, speed);
+  ResidualRow size;
+  size.residual = bird.own[kOwnSizeBias] / model.spreads.size_between;
+  size.AddBorder(kOwnSizeBias, 1 / model.spreads.size_between);
+  take(Term::kSizeSpread, size);
+}
+
+}  // namespace
+
+const char* NameOf(Term term) {
+  switch (term) {
+    case Term::kReprojection:
+      return "reprojection";
+    case Term::kAcceleration:
+      return "acceleration";
+    case Term::kSpeed:
+      return "speed";
+    case Term::kSize:
+      return "size";
+    case Term::kClimb:
+      return "level flight";
+    case Term::kDepth:
+      return "shared depth";
+    case Term::kSpeedSpread:
+      return "speed between animals";
+    case Term::kSizeSpread:
+      return "size between animals";
+    case Term::kAnchor:
+      return "anchors";
+    case Term::kBounds:
+      return "near and far";
+    case Term::kAnyVelocity:
+      return "any velocity";
+  }
+  return "";
+}
+
+double HuberLimit(Term term) {
+  switch (term) {
+    case Term::kReprojection:
+    case Term::kAcceleration:
+    case Term::kSpeed:
+    case Term::kClimb:
+    case Term::kAnchor:
+      return 3;
+    case Term::kSize:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
+double RobustCost(Term term, double residual) {
+  const double limit = HuberLimit(term);
+  const double a = std::abs(residual);
+  return limit == 0 || a <= limit ? 0.5 * a * a : limit * (a - 0.5 * limit);
+}
+
+double RobustWeight(Term term, double residual) {
+  const double limit = HuberLimit(term);
+  const double a = std::abs(residual);
+  return limit == 0 || a <= limit ? 1 : limit / a;
+}
+
+void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
+                bool derivatives, const RowSink& take) {
+  TakeReprojections(bird, take);
+  const Spreads& s = model.spreads;
+  const double dt = model.knot_interval;
+  std::array<MarkovRows, 3> acceleration = {MarkovRows(Term::kAcceleration, s.acceleration, dt),
+                                            MarkovRows(Term::kAcceleration, s.acceleration, dt),
+                                            MarkovRows(Term::kAcceleration, s.acceleration, dt)};
+  MarkovRows speed(Term::kSpeed, s.speed, dt), climb(Term::kClimb, s.climb, dt);
+  MarkovRows size(Term::kSize, s.size, dt), depth(Term::kDepth, s.depth, dt);
+  for (int knot = 0; knot < bird.knots; ++knot) {
+    ForEachFeature(model, bird, shared, derivatives, knot,
+                   [&](Term term, int axis, const Feature& feature) {
+                     MarkovRows& rows = term == Term::kAcceleration ? acceleration[axis]
+                                        : term == Term::kSpeed      ? speed
+                                        : term == Term::kClimb      ? climb
+                                        : term == Term::kSize       ? size
+                                                                    : depth;
+                     rows.Push(knot, feature, take);
+                   });
+  }
+  TakeAnchors(bird, take);
+  TakeBounds(model, bird, take);
+  TakeAnyVelocity(model, bird, take);
+  TakeIndividual(model, bird, shared, take);
+}
+
+void ForEachError(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
+                  int stride, const RowSink& take) {
+  for (int knot = 0; knot < bird.knots; knot += stride) {
+    ForEachFeature(model, bird, shared, true, knot,
+                   [&](Term term, int /*axis*/, const Feature& feature) {
+                     ResidualRow row;
+                     row.first = 3 * knot;
+                     row.residual = feature.value;
+                     std::copy(feature.path.begin(), feature.path.end(), row.path.begin());
+                     for (int a = 0; a < feature.border_count; ++a) {
+                       row.AddBorder(feature.border[a].first, feature.border[a].second);
+                     }
+                     take(term, row);
+                   });
+  }
+}
+
+double CostOf(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared) {
+  double cost = 0;
+  ForEachRow(model, bird, shared, false,
+             [&](Term term, const ResidualRow& row) { cost += RobustCost(term, row.residual); });
+  return cost;
+}
+
+double SharedPriors(const BatchModel& model, const Eigen::VectorXd& shared, Eigen::MatrixXd* matrix,
+                    Eigen::VectorXd* gradient) {
+  double cost = 0;
+  const auto add = [&](int i, int j, double difference, double sd) {  // (x_i - x_j - d) / sd
+    const double r = (shared[i] - (j >= 0 ? shared[j] : 0) - difference) / sd;
+    cost += 0.5 * r * r;
+    if (matrix == nullptr) return;
+    const double w = 1 / (sd * sd);
+    (*matrix)(i, i) += w;
+    (*gradient)[i] += r / sd;
+    if (j < 0) return;
+    (*matrix)(j, j) += w;
+    (*matrix)(i, j) -= w;
+    (*matrix)(j, i) -= w;
+    (*gradient)[j] -= r / sd;
+  };
+  add(kFlockLogSpeed, -1, model.flock_log_speed.mean, model.flock_log_speed.sd);
+  add(kSizeRatio, -1, model.size_ratio.mean, model.size_ratio.sd);
+  add(kLogTrunk, -1, model.log_trunk.mean, model.log_trunk.sd);
+  add(kLogUp, -1, model.log_up.mean, model.log_up.sd);
+  for (int k = 0; k < model.depth_knots; ++k) {
+    add(kFirstDepthKnot + k, -1, model.log_depth.mean,
+        model.log_depth.sd * std::sqrt(static_cast<double>(model.depth_knots)));
+    if (k > 0) add(kFirstDepthKnot + k, kFirstDepthKnot + k - 1, 0, model.depth_step_sd);
+  }
+  return cost;
+}
+
+}  // namespace flocklift::internal

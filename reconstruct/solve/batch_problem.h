@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The batch method's model: unknowns and residuals of a whole sequence. Every animal (segment) has
+// its path (cost_functions/path.h) and two scalars of its own; a few unknowns belong to the flock.
+// Given those, the animals are independent: an arrow (arrow_system.h).
+
+#ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_PROBLEM_H_
+#define FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_PROBLEM_H_
+
+#include <Eigen/Core>
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "reconstruct/cost_functions/markov.h"
+#include "reconstruct/initialize/segments.h"
+#include "reconstruct/knowledge.h"
+#include "reconstruct/solve/arrow_system.h"
+#include "reconstruct/solve/batch_options.h"
+
+namespace flocklift::internal {
+
+// The flock's unknowns; log depths of its middle at times kDepthKnotTime apart follow the last.
+inline constexpr int kFlockLogSpeed = 0, kSizeRatio = 1, kLogTrunk = 2, kLogUp = 3;
+inline constexpr int kFirstDepthKnot = 4;
+inline constexpr double kDepthKnotTime = 2;  // [s]
+// An animal's own unknowns.
+inline constexpr int kOwnLogSpeed = 0, kOwnSizeBias = 1, kOwnUnknowns = 2;
+
+enum class Term {
+  kReprojection,
+  kAcceleration,
+  kSpeed,
+  kSize,
+  kClimb,
+  kDepth,
+  kSpeedSpread,
+  kSizeSpread,
+  kAnchor,
+  kBounds,
+  kAnyVelocity,
+};
+inline constexpr int kTermCount = 11;
+const char* NameOf(Term term);
+
+// Residuals beyond this many sds count linearly (Huber's loss); 0: never.
+double HuberLimit(Term term);
+
+// The spreads of the priors; estimated while solving.
+struct Spreads {
+  MarkovProcess acceleration, speed, size, climb, depth;
+  double speed_between = 0.1;
+  double size_between = 0.05;
+};
+
+struct Bird {
+  const Segment* segment = nullptr;
+  int first_knot = 0;        // on the sequence's grid of knots
+  int knots = 0;             // at least 2; control points: knots + 2
+  std::vector<double> path;  // control points, (X, Y, L) each
+  std::array<double, kOwnUnknowns> own{};
+  std::vector<std::optional<double>> size;  // mean log angular size around each knot
+  double reference_depth = 1;               // scale of accelerations [m]
+  double softening = 1e-3;                  // speed over depth that counts as none [1/s]
+
+  struct Place {  // a time on the path
+    int interval = 0;
+    std::array<double, 4> weights{};
+    std::array<double, 4> slopes{};  // by time
+  };
+  std::vector<Place> places;  // of the sightings
+  struct Known {
+    Place place;
+    Vec3d position_in_cam;
+    double sd = 1;
+  };
+  std::vector<Known> anchors;
+
+  int unknowns() const { return static_cast<int>(path.size()); }
+};
+
+// What stays fixed during one solve.
+struct BatchModel {
+  double knot_interval = 0.1;  // [s]
+  Spreads spreads;
+  double log_wingspan = 0;  // [log m]; 0 m^0 where unknown (the ratio is then free)
+  std::optional<Vec3d> up_in_cam;
+  bool use_size = true, use_climb = true, use_depth = true;
+  std::optional<double> log_near, log_far;
+  Uncertain flock_log_speed, size_ratio, log_trunk, log_up, log_depth;
+  double depth_step_sd = 0.3;  // of the flock's middle over one kDepthKnotTime
+  int depth_knots = 1;
+
+  int shared() const { return kFirstDepthKnot + depth_knots; }
+};
+
+using RowSink = std::function<void(Term, const ResidualRow&)>;
+
+// Hands every whitened residual of one bird to `take`, with derivatives when asked.
+void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
+                bool derivatives, const RowSink& take);
+
+// The unwhitened errors e of the Markov terms, one row each, at every `stride`-th knot.
+void ForEachError(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
+                  int stride, const RowSink& take);
+
+// Robust cost of one residual, and its weight in the normal equations.
+double RobustCost(Term term, double residual);
+double RobustWeight(Term term, double residual);
+
+double CostOf(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared);
+
+// Priors of the flock's unknowns: cost, and if not null their normal equations (added).
+double SharedPriors(const BatchModel& model, const Eigen::VectorXd& shared, Eigen::MatrixXd* matrix,
+                    Eigen::VectorXd* gradient);
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_PROBLEM_H_

@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/solve/batch_start.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reconstruct/cost_functions/path.h"
+#include "reconstruct/initialize/depth_search.h"
+
+namespace flocklift::internal {
+namespace {
+
+// A prior that says next to nothing, of a logarithm.
+constexpr double kVague = 3;
+// Proportions of a bird's second moments, |wings|^2 : |trunk|^2 : |up|^2: a trunk of half to two
+// thirds of the span; wings that beat +-50 degrees lose a third of their squared extent and give
+// an eighth to a fifth of it to the vertical.
+constexpr Uncertain kTrunkPrior{-0.9, 0.4};
+constexpr Uncertain kUpPrior{-1.8, 0.5};
+// Box over wingspan: flapping shortens it by up to a sixth, blur lengthens it a little.
+constexpr double kRatioMean = -0.05;
+// Mean of log sqrt(Q) over all views, for the proportions above.
+constexpr double kMeanExtent = 0.02;
+
+Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time) {
+  const double position = time / model.knot_interval - bird.first_knot;
+  Bird::Place place;
+  place.interval = std::clamp(static_cast<int>(std::floor(position)), 0, bird.knots - 2);
+  const double s = position - place.interval;
+  place.weights = SplineWeights(s);
+  place.slopes = SplineSlopes(s);
+  for (double& slope : place.slopes) slope /= model.knot_interval;
+  return place;
+}
+
+// X and Y of the control points: reprojection and white accelerations, linear.
+void SmoothImagePath(const BatchModel& model, Bird* bird) {
+  ArrowSystem system(bird->unknowns(), 0, 0);
+  const auto take = [&system](Term, const ResidualRow& row) { system.Add(row); };
+  const double rate2 = 1 / (model.knot_interval * model.knot_interval);
+  for (std::size_t k = 0; k < bird->places.size(); ++k) {
+    const Sighting& sighting = bird->segment->sightings[k];
+    for (int axis = 0; axis < 2; ++axis) {
+      ResidualRow row;
+      row.first = 3 * bird->places[k].interval;
+      row.residual = -(axis == 0 ? sighting.ray.x : sighting.ray.y) / sighting.ray_sd;
+      for (int a = 0; a < 4; ++a) {
+        row.path[3 * a + axis] = bird->places[k].weights[a] / sighting.ray_sd;
+      }
+      take(Term::kReprojection, row);
+    }
+  }
+  const double sd = 2 * model.spreads.acceleration.sd / bird->reference_depth;
+  for (int knot = 0; knot < bird->knots; ++knot) {
+    for (int axis = 0; axis < 3; ++axis) {
+      ResidualRow row;
+      row.first = 3 * knot;
+      row.path[axis] = row.path[axis + 6] = rate2 / sd;
+      row.path[axis + 3] = -2 * rate2 / sd;
+      take(Term::kAcceleration, row);
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {  // a slope that a single sighting leaves open; L's level
+    ResidualRow row;
+    row.path[axis] = -1e-3 / sd;
+    row.path[axis + 3] = axis == 2 ? 1e-3 : 0;
+    row.path[axis + 6] = 1e-3 / sd;
+    take(Term::kAnyVelocity, row);
+  }
+  ResidualRow level;
+  level.path[5] = 1;
+  take(Term::kDepth, level);
+  Eigen::MatrixXd none(0, 0);
+  Eigen::VectorXd nothing(0);
+  if (!system.Reduce(0, &none, &nothing)) return;
+  const Eigen::VectorXd path = system.BackSubstitute(nothing);
+  for (int i = 0; i < bird->unknowns(); ++i) {
+    if (i % 3 != 2) bird->path[static_cast<std::size_t>(i)] = path[i];
+  }
+}
+
+void BinSizes(const BatchModel& model, Bird* bird) {
+  std::vector<double> sums(static_cast<std::size_t>(bird->knots));
+  std::vector<int> counts(sums.size());
+  for (const Sighting& s : bird->segment->sightings) {
+    if (!s.log_size) continue;
+    const int knot =
+        std::clamp(static_cast<int>(std::lround(s.time / model.knot_interval)) - bird->first_knot,
+                   0, bird->knots - 1);
+    sums[knot] += *s.log_size;
+    ++counts[knot];
+  }
+  bird->size.assign(sums.size(), std::nullopt);
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    if (counts[k] > 0) bird->size[k] = sums[k] / counts[k];
+  }
+}
+
+void StartDepth(const BatchModel& model, const ScaleGuess& guess, Bird* bird) {
+  constexpr double kSearchInterval = 0.25;  // [s]
+  const int stride =
+      std::max(1, static_cast<int>(std::lround(kSearchInterval / model.knot_interval)));
+  const int steps = (bird->knots - 1) / stride + 1;
+  std::vector<DepthSearchStep> search(static_cast<std::size_t>(steps));
+  for (int k = 0; k < steps; ++k) {
+    const double* c = &bird->path[3 * static_cast<std::size_t>(k * stride)];
+    search[k].ray = {(c[0] + 4 * c[3] + c[6]) / 6, (c[1] + 4 * c[4] + c[7]) / 6};
+    double sum = 0;
+    int count = 0;
+    for (int knot = std::max(0, k * stride - stride / 2);
+         knot <= std::min(bird->knots - 1, k * stride + stride / 2); ++knot) {
+      if (!bird->size[knot]) continue;
+      sum += *bird->size[knot];
+      ++count;
+    }
+    if (count > 0) search[k].log_size = sum / count;
+  }
+  const Spreads& s = model.spreads;
+  DepthSearchPriors priors{
+      .log_speed = guess.log_speed,
+      .speed_sd = std::hypot(s.speed_between, s.speed.sd, std::min(model.flock_log_speed.sd, 0.3)),
+      .speed_time = s.speed.time,
+      .acceleration_sd = s.acceleration.sd,
+      .log_width = guess.log_width + kMeanExtent,
+      .size_sd = std::hypot(s.size.sd, s.size_between, 0.1),
+      .size_time = s.size.time,
+      .log_depth = guess.log_depth,
+      .depth_sd = model.use_depth ? std::max(1.5 * s.depth.sd, 0.1) : 1,
+      .depth_time = s.depth.time,
+      .climb_sd = s.climb.sd,
+      .climb_time = s.climb.time,
+      .up_in_cam = model.use_climb ? model.up_in_cam : std::nullopt,
+      .log_near = guess.log_near,
+      .log_far = guess.log_far};
+  const std::vector<double> depth = SearchDepth(priors, stride * model.knot_interval, search);
+  for (int control = 0; control < bird->knots + 2; ++control) {
+    const double place = std::clamp((control - 1.0) / stride, 0.0, static_cast<double>(steps - 1));
+    const int left = std::min(static_cast<int>(place), std::max(0, steps - 2));
+    const int right = std::min(left + 1, steps - 1);
+    bird->path[3 * static_cast<std::size_t>(control) + 2] =
+        depth[left] + (place - left) * (depth[right] - depth[left]);
+  }
+}
+
+}  // namespace
+
+BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
+                     const Segments& segments, const ScaleGuess& guess, double fps) {
+  BatchModel model;
+  model.knot_interval = std::max(options.knot_interval, 1 / fps);
+  Spreads& s = model.spreads;
+  s.acceleration = {options.acceleration_sd, options.acceleration_time};
+  s.speed = {options.speed_sd, options.speed_time};
+  s.size = {options.size_sd, options.size_time};
+  s.climb = {options.climb_sd, options.climb_time};
+  s.depth = {std::max(guess.lateral_spread, 0.02), options.depth_time};
+  s.speed_between = options.speed_spread;
+  s.size_between =
+      knowledge.wingspan ? std::max(0.01, knowledge.wingspan->sd / knowledge.wingspan->mean) : 0.07;
+  model.log_wingspan = knowledge.wingspan ? std::log(knowledge.wingspan->mean) : 0;
+  model.up_in_cam = knowledge.up_in_cam;
+  model.use_climb = options.level_flight && knowledge.up_in_cam.has_value();
+  model.use_depth = options.shared_depth;
+  model.use_size = knowledge.use_size;
+  if (knowledge.near) model.log_near = std::log(*knowledge.near);
+  if (knowledge.far) model.log_far = std::log(*knowledge.far);
+  model.flock_log_speed = {guess.log_speed,
+                           knowledge.speed ? knowledge.speed->sd / knowledge.speed->mean : kVague};
+  model.size_ratio = knowledge.wingspan
+                         ? Uncertain{kRatioMean, std::hypot(options.size_ratio_sd, s.size_between)}
+                         : Uncertain{guess.log_width, kVague};
+  model.log_trunk = kTrunkPrior;
+  model.log_up = kUpPrior;
+  model.log_depth = {guess.log_depth, kVague};
+  if (knowledge.near && knowledge.far) {
+    // Anywhere between them: the sd of a uniform distribution.
+    model.log_depth.sd = std::log(*knowledge.far / *knowledge.near) / std::sqrt(12.0);
+    model.use_depth = true;
+  }
+  double last_time = 0;
+  for (const Segment& segment : segments.segments) {
+    last_time = std::max(last_time, segment.sightings.back().time);
+  }
+  model.depth_knots = static_cast<int>(std::ceil(last_time / kDepthKnotTime)) + 1;
+  return model;
+}
+
+Eigen::VectorXd StartOfShared(const BatchModel& model) {
+  Eigen::VectorXd shared(model.shared());
+  shared[kFlockLogSpeed] = model.flock_log_speed.mean;
+  shared[kSizeRatio] = model.size_ratio.mean;
+  shared[kLogTrunk] = model.log_trunk.mean;
+  shared[kLogUp] = model.log_up.mean;
+  shared.tail(model.depth_knots).setConstant(model.log_depth.mean);
+  return shared;
+}
+
+Bird StartBird(const BatchModel& model, const Knowledge& knowledge, const ScaleGuess& guess,
+               const Segment& segment, double fps, int first_frame) {
+  const auto& sightings = segment.sightings;
+  constexpr double kSlack = 1e-6;  // a sighting at a knot needs no interval after it
+  Bird bird;
+  bird.segment = &segment;
+  bird.first_knot =
+      static_cast<int>(std::floor(sightings.front().time / model.knot_interval + kSlack));
+  const int last_knot =
+      static_cast<int>(std::ceil(sightings.back().time / model.knot_interval - kSlack));
+  bird.knots = std::max(last_knot, bird.first_knot + 1) - bird.first_knot + 1;
+  bird.path.assign(3 * static_cast<std::size_t>(bird.knots + 2), 0.0);
+  bird.own = {guess.log_speed, 0};
+  bird.reference_depth = std::exp(guess.log_depth);
+  bird.softening = 0.05 * std::exp(guess.log_speed - guess.log_depth);
+  for (const Sighting& s : sightings) bird.places.push_back(PlaceAt(model, bird, s.time));
+  for (const Anchor& anchor : knowledge.anchors) {
+    if (anchor.id != segment.id || anchor.frame < sightings.front().frame ||
+        anchor.frame > sightings.back().frame) {
+      continue;
+    }
+    bird.anchors.push_back(
+        {PlaceAt(model, bird, (anchor.frame - first_frame) / fps), anchor.position, anchor.sd});
+  }
+  BinSizes(model, &bird);
+  SmoothImagePath(model, &bird);
+  StartDepth(model, guess, &bird);
+  return bird;
+}
+
+}  // namespace flocklift::internal

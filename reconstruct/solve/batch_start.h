@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Where the batch method starts: the model for what the user knows, and every animal's path with
+// its image positions smoothed and its depth searched on a grid.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_START_H_
+#define FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_START_H_
+
+#include "reconstruct/initialize/scale_guess.h"
+#include "reconstruct/solve/batch_problem.h"
+
+namespace flocklift::internal {
+
+BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
+                     const Segments& segments, const ScaleGuess& guess, double fps);
+
+// The flock's unknowns at the means of their priors.
+Eigen::VectorXd StartOfShared(const BatchModel& model);
+
+// Places the sightings and anchors on knots, smooths the image path, searches the depth.
+Bird StartBird(const BatchModel& model, const Knowledge& knowledge, const ScaleGuess& guess,
+               const Segment& segment, double fps, int first_frame);
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_START_H_

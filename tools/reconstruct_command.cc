@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tools/reconstruct_command.h"
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "reconstruct/presets.h"
+#include "simulate/camera/camera_io.h"
+#include "simulate/core/check.h"
+#include "simulate/core/io.h"
+#include "tools/stage.h"
+
+namespace flocklift {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Relative sds of a mean that is given without one.
+constexpr double kSpeedSd = 0.15, kWingspanSd = 0.06;
+
+std::optional<Uncertain> ParseUncertain(const std::string& text, const std::string& flag,
+                                        double relative_sd) {
+  if (text.empty()) return std::nullopt;
+  const MeanSd given = ParseMeanSd(text, flag);
+  return Uncertain{given.mean, given.sd.value_or(relative_sd * given.mean)};
+}
+
+Knowledge KnowledgeOf(const ReconstructCommand& command) {
+  Knowledge knowledge;
+  if (!command.preset.empty()) {
+    const SpeciesPreset& preset = PresetOf(command.preset);
+    knowledge.speed = preset.speed;
+    knowledge.wingspan = preset.wingspan;
+  }
+  if (const auto speed = ParseUncertain(command.speed, "--speed", kSpeedSd)) {
+    knowledge.speed = speed;
+  }
+  if (const auto wingspan = ParseUncertain(command.wingspan, "--wingspan", kWingspanSd)) {
+    knowledge.wingspan = wingspan;
+  }
+  knowledge.near = command.near;
+  knowledge.far = command.far;
+  knowledge.use_size = !command.no_size;
+  if (!command.anchors.empty()) knowledge.anchors = ReadAnchors(command.anchors);
+  return knowledge;
+}
+
+// Depths of the first frame of the tracks, from positions in the world frame.
+FirstDepths ReadFirstDepths(const fs::path& path, const Camera& camera, int frame) {
+  FirstDepths depths;
+  for (const Trajectory& trajectory : ReadTrajectories(path).trajectories) {
+    for (const TrajectoryPoint& point : trajectory.points) {
+      if (point.frame != frame) continue;
+      depths[trajectory.id] = (camera.CamFromWorld(frame) * point.position).z;
+    }
+  }
+  return depths;
+}
+
+double FpsFor(const ReconstructCommand& command, const CommonOptions& common, const Tracks& tracks,
+              const Camera& camera) {
+  if (common.fps) return *common.fps;
+  if (tracks.fps) return *tracks.fps;
+  if (camera.fps) return *camera.fps;
+  throw InputError(command.tracks.string(), 0, "says no frames per second, nor does the camera",
+                   "give --fps, or `fps:` in the camera file");
+}
+
+nlohmann::ordered_json AsJson(const ReconstructReport& report) {
+  nlohmann::ordered_json json = {{"method", NameOf(report.method)},
+                                 {"scale_sd", report.scale_sd},
+                                 {"scale_from", report.scale_from},
+                                 {"observability", report.observability},
+                                 {"relative_sd", report.relative_sd},
+                                 {"segments", report.segments},
+                                 {"cuts", report.cuts},
+                                 {"pixel_sd", report.pixel_sd},
+                                 {"initial_cost", report.initial_cost},
+                                 {"final_cost", report.final_cost},
+                                 {"iterations", report.iterations},
+                                 {"converged", report.converged}};
+  for (const auto& [name, value] : report.spreads) json["spreads"][name] = value;
+  for (const TermStatistics& term : report.terms) {
+    json["residuals"].push_back({{"name", term.name},
+                                 {"count", term.count},
+                                 {"rms", term.rms},
+                                 {"outliers", term.outliers}});
+  }
+  return json;
+}
+
+}  // namespace
+
+void RunReconstruct(const ReconstructCommand& command, const CommonOptions& common) {
+  ReconstructOptions options;
+  options.method =
+      command.method == "cobyla" ? ReconstructMethod::kCobyla : ReconstructMethod::kBatch;
+  options.knowledge = KnowledgeOf(command);
+  CheckKnowledge(options.knowledge);
+  options.pitch_deg = command.pitch_deg;
+  options.batch = command.batch;
+  options.cobyla = command.cobyla;
+
+  Stage stage("reconstruct", common);
+  stage.options() = {{"method", command.method},   {"preset", command.preset},
+                     {"speed", command.speed},     {"wingspan", command.wingspan},
+                     {"no-size", command.no_size}, {"output", command.output}};
+  if (command.near) stage.options()["near"] = *command.near;
+  if (command.far) stage.options()["far"] = *command.far;
+  if (command.pitch_deg) stage.options()["pitch"] = *command.pitch_deg;
+  if (common.fps) stage.options()["fps"] = *common.fps;
+  stage.options()["batch"] = OptionsAsJson(command.batch);
+  stage.options()["cobyla"] = OptionsAsJson(command.cobyla);
+  RequireFile(command.tracks, "give the file that `flocklift track` wrote");
+  RequireFile(command.camera, "make one with `flocklift camera` or `flocklift calibrate`");
+  stage.AddInput(command.tracks);
+  stage.AddInput(command.camera);
+  fs::path shapes = command.shapes;
+  if (shapes.empty()) {
+    shapes = command.tracks.parent_path() / "shapes.csv";
+    if (command.no_size || !fs::is_regular_file(shapes)) shapes.clear();
+  }
+  if (!shapes.empty()) stage.AddInput(shapes);
+  if (!command.anchors.empty()) stage.AddInput(command.anchors);
+  if (!command.first_depths.empty()) stage.AddInput(command.first_depths);
+  stage.AddOutput(command.output);
+  if (stage.IsUpToDate()) return;
+
+  Progress progress = stage.BeginPhase("read", "files");
+  Tracks tracks = ReadTracks(command.tracks);
+  const Camera camera = ReadCamera(command.camera);
+  if (!shapes.empty()) ReadShapes(shapes, &tracks);
+  if (!command.first_depths.empty()) {
+    options.cobyla_first_depths =
+        ReadFirstDepths(command.first_depths, camera, SpanOf(tracks).first);
+  }
+  const double fps = FpsFor(command, common, tracks, camera);
+  progress = stage.BeginPhase(
+      "solve", options.method == ReconstructMethod::kBatch ? "iterations" : "frames");
+  const ReconstructResult result =
+      Reconstruct(options, tracks, camera, fps, common.ThreadCount(), progress);
+  stage.BeginPhase("write", "files");
+  WriteTrajectories(common.out / command.output, result.trajectories);
+  stage.EndPhase();
+  for (const std::string& warning : result.report.warnings) stage.Warn(warning);
+  stage.figures() = AsJson(result.report);
+  stage.Finish();
+}
+
+void AddKnowledgeFlags(CLI::App& sub, ReconstructCommand* command) {
+  const std::string group = "What you know (at least one that fixes the scale)";
+  sub.add_option("--speed", command->speed,
+                 "MEAN[,SD]: mean speed over the flock, and how sure that is [m/s]")
+      ->group(group);
+  sub.add_option("--wingspan", command->wingspan,
+                 "MEAN[,SD]: wingspan tip to tip, sd between animals [m]")
+      ->group(group);
+  std::string names;
+  for (const SpeciesPreset& preset : SpeciesPresets()) {
+    names += (names.empty() ? "" : ", ") + std::string(preset.name);
+  }
+  sub.add_option("--preset", command->preset, "speed and wingspan of a species: " + names)
+      ->group(group);
+  sub.add_option("--near", command->near, "no animal is nearer [m]")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  sub.add_option("--far", command->far, "no animal is farther [m]")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  sub.add_option("--anchors", command->anchors,
+                 "file of known positions: frame,id,x,y,z,sd with a header")
+      ->group(group);
+  sub.add_flag("--no-size", command->no_size, "ignore boxes and shapes")->group(group);
+  sub.add_option("--pitch", command->pitch_deg,
+                 "the optical axis points so many degrees above the horizon, without roll (for a "
+                 "camera file without a pose)")
+      ->check(CLI::Range(-90.0, 90.0))
+      ->group(group);
+}
+
+void AddReconstructCommand(CLI::App& app) {
+  std::shared_ptr<ReconstructCommand> command;
+  CLI::App* sub = AddSubcommand<ReconstructCommand>(
+      app, "reconstruct", "Find the depth of every tracked animal",
+      "Examples:\n"
+      "  flocklift reconstruct tracks.csv --camera camera.yaml --wingspan 0.7,0.035 --speed 11,1\n"
+      "  flocklift reconstruct tracks.csv --camera camera.yaml --preset jackdaw --no-size\n"
+      "  flocklift reconstruct tracks.csv --camera camera.yaml --near 20 --far 80 --pitch 15\n"
+      "  flocklift reconstruct tracks.csv --camera camera.yaml --speed 11 --method cobyla",
+      {.fps = true}, &RunReconstruct, &command);
+  sub->add_option("tracks", command->tracks, "tracks (MOTChallenge CSV, or HDF5)")->required();
+  sub->add_option("--camera", command->camera, "camera file")->required();
+  sub->add_option("--shapes", command->shapes,
+                  "shapes of the tracked animals; default: shapes.csv beside the tracks");
+  sub->add_option("--method", command->method, "batch (the best) or cobyla (as published)")
+      ->check(CLI::IsMember({"batch", "cobyla"}))
+      ->capture_default_str();
+  sub->add_option("--output", command->output, "name of the file to write; .h5 for HDF5")
+      ->capture_default_str();
+  AddKnowledgeFlags(*sub, command.get());
+  AddFlags(*sub, command->batch, "Method batch");
+  sub->add_option("--first-depths", command->first_depths,
+                  "trajectories whose depths in the first frame cobyla starts from")
+      ->group("Method cobyla");
+  AddFlags(*sub, command->cobyla, "Method cobyla");
+}
+
+}  // namespace flocklift
