@@ -43,7 +43,7 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
     }
     std::vector<Measurement> measurements;
     for (const Sighting& s : record.sightings) {
-      measurements.push_back({s.frame, s.position, s.variance});
+      measurements.push_back({s.frame, s.position, s.variance, s.agility});
     }
     const std::vector<MotionState> states =
         Smooth(measurements, noise.ProcessVariance(record.size), noise.speed_sd);

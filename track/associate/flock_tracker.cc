@@ -68,7 +68,7 @@ void FlockTracker::Step(const BlobFrame& blobs) {
 
 void FlockTracker::PredictAll(int frames) {
   for (Animal& animal : animals_) {
-    Predict(&animal.motion, noise_.ProcessVariance(animal.record.size), frames);
+    animal.motion.Predict(noise_.ProcessVariance(animal.record.size), frames);
     animal.age += frames;
     animal.missed += frames - 1;
   }
@@ -88,13 +88,13 @@ std::vector<std::vector<int>> FlockTracker::ExpectedInBlobs(const BlobFrame& blo
   for (std::size_t i = 0; i < animals_.size(); ++i) {
     const Animal& animal = animals_[i];
     if (!animal.confirmed) continue;
-    const double reach = 0.7 + kReachSds * std::sqrt(animal.motion.pp);
+    const double reach = 0.7 + kReachSds * std::sqrt(animal.motion.state().pp);
     double nearest = reach * reach;
     int where = -1;
-    grid.ForEachWithin(animal.motion.position, reach + longest, [&](int j, double) {
+    grid.ForEachWithin(animal.motion.state().position, reach + longest, [&](int j, double) {
       const Blob& blob = blobs.blobs[j];
       const double distance2 =
-          SquaredDistanceToPixels(PixelsOf(blobs, blob), animal.motion.position);
+          SquaredDistanceToPixels(PixelsOf(blobs, blob), animal.motion.state().position);
       if (distance2 < nearest || (distance2 == nearest && where < 0)) {
         nearest = distance2;
         where = j;
@@ -105,12 +105,34 @@ std::vector<std::vector<int>> FlockTracker::ExpectedInBlobs(const BlobFrame& blo
   return expected;
 }
 
+// Two tracks share a blob only if their animals were once seen apart, both alone in the same
+// stretch of frames: else the second is the first one found again, or a piece of it. Whoever was
+// missed longer, or came later, has to wait.
+void FlockTracker::KeepSeenApart(std::vector<int>* inside) const {
+  std::stable_sort(inside->begin(), inside->end(), [this](int a, int b) {
+    const Animal &x = animals_[a], &y = animals_[b];
+    return x.missed != y.missed ? x.missed < y.missed : x.hits > y.hits;
+  });
+  std::vector<int> kept;
+  for (const int i : *inside) {
+    const Animal& x = animals_[i];
+    const bool apart = std::all_of(kept.begin(), kept.end(), [&](int k) {
+      const Animal& y = animals_[k];
+      return std::max(x.record.sightings.front().frame, y.record.sightings.front().frame) <=
+             std::min(x.last_alone, y.last_alone);
+    });
+    if (apart) kept.push_back(i);
+  }
+  *inside = std::move(kept);
+}
+
 std::vector<FlockTracker::Observation> FlockTracker::Observe(const BlobFrame& blobs) {
   std::vector<std::vector<int>> expected = ExpectedInBlobs(blobs);
   std::vector<Observation> observations;
   for (std::size_t j = 0; j < blobs.blobs.size(); ++j) {
     const Blob& blob = blobs.blobs[j];
     std::vector<int>& inside = expected[j];
+    KeepSeenApart(&inside);
     // The blob must be heavy enough for all of them, as far as they do not hide each other; else
     // whoever was missed longest is not in it.
     while (inside.size() >= 2) {
@@ -120,8 +142,8 @@ std::vector<FlockTracker::Observation> FlockTracker::Observe(const BlobFrame& bl
         together += x.record.mass;
         for (std::size_t b = 0; b < a; ++b) {
           const Animal& y = animals_[inside[b]];
-          const double dx = x.motion.position.x - y.motion.position.x;
-          const double dy = x.motion.position.y - y.motion.position.y;
+          const double dx = x.motion.state().position.x - y.motion.state().position.x;
+          const double dy = x.motion.state().position.y - y.motion.state().position.y;
           together -=
               std::min(x.record.mass, y.record.mass) *
               std::exp(-(dx * dx + dy * dy) / (2 * (SpreadOf(x.moments) + SpreadOf(y.moments))));
@@ -140,7 +162,7 @@ std::vector<FlockTracker::Observation> FlockTracker::Observe(const BlobFrame& bl
     std::vector<Expectation> expectations;
     for (const int i : inside) {
       const Animal& a = animals_[i];
-      expectations.push_back({a.motion.position, a.motion.pp,
+      expectations.push_back({a.motion.state().position, a.motion.state().pp,
                               noise_.MeasurementVariance(a.record.size), a.record.mass, a.moments});
     }
     const std::vector<Share> shares = ShareBlob(PixelsOf(blobs, blob), expectations);
@@ -164,18 +186,19 @@ std::vector<int> FlockTracker::AssignAll(const BlobFrame& blobs,
     const Animal& animal = animals_[i];
     alone.push_back(-std::log(1 - options_.detection_probability));
     const double own_noise = noise_.MeasurementVariance(animal.record.size);
-    const double widest = animal.motion.pp + own_noise + 2 * SpreadOf(animal.moments);
-    grid.ForEachWithin(animal.motion.position, std::sqrt(gate_ * widest), [&](int j, double d2) {
-      const Observation& o = observations[j];
-      if (o.owner >= 0 && o.owner != static_cast<int>(i)) return;
-      const double s = animal.motion.pp + (o.owner >= 0 ? o.variance : own_noise);
-      if (d2 > gate_ * s) return;
-      const double extra =
-          o.owner >= 0 ? kShareCost : MassCost(blobs.blobs[o.blob].mass, animal.record.mass);
-      candidates.push_back({static_cast<int>(i), j,
-                            0.5 * d2 / s + std::log(2 * std::numbers::pi * s) + log_density -
-                                std::log(options_.detection_probability) + extra});
-    });
+    const double widest = animal.motion.widest_pp() + own_noise + 2 * SpreadOf(animal.moments);
+    grid.ForEachWithin(
+        animal.motion.state().position, std::sqrt(gate_ * widest), [&](int j, double d2) {
+          const Observation& o = observations[j];
+          if (o.owner >= 0 && o.owner != static_cast<int>(i)) return;
+          const double r = o.owner >= 0 ? o.variance : own_noise;
+          if (d2 > gate_ * (animal.motion.widest_pp() + r)) return;
+          const double extra =
+              o.owner >= 0 ? kShareCost : MassCost(blobs.blobs[o.blob].mass, animal.record.mass);
+          candidates.push_back({static_cast<int>(i), j,
+                                animal.motion.NegativeLogLikelihood(o.position, r) + log_density -
+                                    std::log(options_.detection_probability) + extra});
+        });
   }
   return Assign(static_cast<int>(observations.size()), candidates, alone);
 }
@@ -185,16 +208,24 @@ void FlockTracker::Sight(const BlobFrame& blobs, const Observation& o, Animal* a
   TrackRecord& record = animal->record;
   const bool shared = o.owner >= 0;
   const double variance = shared ? o.variance : noise_.MeasurementVariance(record.size);
-  Update(&animal->motion, o.position, variance);
+  animal->motion.Update(o.position, variance);
   ++animal->hits;
   animal->missed = 0;
-  Sighting sighting{blobs.frame, o.position, variance, blob.box.width, blob.box.height, {}, shared};
+  Sighting sighting{.frame = blobs.frame,
+                    .position = o.position,
+                    .variance = variance,
+                    .agility = animal->motion.agility(),
+                    .width = blob.box.width,
+                    .height = blob.box.height,
+                    .shape = {},
+                    .shared = shared};
   if (shared) {
     const Sighting& before = record.sightings.back();
     sighting.width = before.width;
     sighting.height = before.height;
     sighting.shape = before.shape;
   } else {
+    animal->last_alone = blobs.frame;
     const double w = std::max(kMemory, 1.0 / animal->hits);
     record.mass *= std::pow(blob.mass / record.mass, w);
     record.size *= std::pow(SizeOf(blob) / record.size, w);
@@ -236,7 +267,7 @@ void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observa
   std::size_t kept = 0;
   for (Animal& animal : animals_) {
     if (!animal.confirmed && animal.hits >= options_.confirm_hits) animal.confirmed = true;
-    const Vec2d& p = animal.motion.position;
+    const Vec2d p = animal.motion.state().position;
     const bool outside = p.x < 0 || p.y < 0 || p.x > width_ - 1 || p.y > height_ - 1;
     const bool over =
         animal.confirmed
@@ -261,16 +292,19 @@ void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observa
     animal.record.size = SizeOf(blob);
     animal.record.mass = blob.mass;
     animal.moments = blob.moments;
-    animal.motion = {blob.center,
-                     {0, 0},
-                     noise_.MeasurementVariance(animal.record.size),
-                     0,
-                     noise_.speed_sd * noise_.speed_sd};
+    const double variance = noise_.MeasurementVariance(animal.record.size);
+    animal.motion =
+        MotionFilter({blob.center, {0, 0}, variance, 0, noise_.speed_sd * noise_.speed_sd});
     animal.hits = 1;
+    animal.last_alone = blobs.frame;
     animal.confirmed = options_.confirm_hits <= 1;
     animal.record.sightings.push_back(
-        {blobs.frame, blob.center, animal.motion.pp, blob.box.width, blob.box.height,
-         ShapeOf(blob.moments, blob.mass / std::max(blob.peak, 1e-9)), false});
+        {.frame = blobs.frame,
+         .position = blob.center,
+         .variance = variance,
+         .width = blob.box.width,
+         .height = blob.box.height,
+         .shape = ShapeOf(blob.moments, blob.mass / std::max(blob.peak, 1e-9))});
     animals_.push_back(std::move(animal));
   }
   strays_ += 0.1 * (strays - strays_);

@@ -3,7 +3,7 @@
 //
 // Many animals, frame by frame: predict, share blobs, gate, assign, update. Costs are negative log
 // likelihoods: animal i sighted as observation j costs
-//   1/2 d^2 + ln(2 pi S) + ln(density) - ln P_D + mass term,   S = P + r,
+//   -ln p(position | prediction) + ln(density) - ln P_D + mass term,
 // where density is that of observations which belong to nobody [1/px^2], and a missed animal costs
 // -ln(1 - P_D). A blob in which several animals are expected is shared among them (share_blob.h).
 
@@ -14,6 +14,7 @@
 
 #include "simulate/core/options.h"
 #include "track/detect/blob.h"
+#include "track/predict/motion_filter.h"
 #include "track/predict/motion_noise.h"
 
 namespace flocklift {
@@ -44,6 +45,7 @@ struct Sighting {
   int frame = 0;
   Vec2d position;                // [px]
   double variance = 1;           // per axis [px^2]
+  double agility = 1;            // factor on the process noise up to this frame
   double width = 0, height = 0;  // of its box [px]
   Shape shape;
   bool shared = false;  // the blob held others too
@@ -72,10 +74,11 @@ class FlockTracker {
 
  private:
   struct Animal {
-    MotionState motion;
+    MotionFilter motion;
     Moments moments;
     TrackRecord record;
     int hits = 0, missed = 0, age = 0;
+    int last_alone = 0;  // frame in which it last had a blob of its own
     bool confirmed = false;
   };
   // A blob, or one animal's share of a blob.
@@ -88,6 +91,7 @@ class FlockTracker {
 
   void PredictAll(int frames);
   std::vector<Observation> Observe(const BlobFrame& blobs);
+  void KeepSeenApart(std::vector<int>* inside) const;
   std::vector<std::vector<int>> ExpectedInBlobs(const BlobFrame& blobs) const;
   std::vector<int> AssignAll(const BlobFrame& blobs, const std::vector<Observation>& observations);
   void UpdateAll(const BlobFrame& blobs, const std::vector<Observation>& observations,

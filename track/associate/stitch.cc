@@ -26,7 +26,7 @@ Ends EndsOf(const TrackRecord& track, const MotionNoise& noise) {
     std::vector<Measurement> some;
     for (std::size_t k = begin; k < end; ++k) {
       const Sighting& s = track.sightings[k];
-      some.push_back({s.frame, s.position, s.variance});
+      some.push_back({s.frame, s.position, s.variance, s.agility});
     }
     const auto states = Smooth(some, noise.ProcessVariance(track.size), noise.speed_sd);
     return at_end ? states.back() : states.front();

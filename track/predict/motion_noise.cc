@@ -7,12 +7,15 @@
 #include <cmath>
 #include <limits>
 
+#include "track/predict/motion_filter.h"
+
 namespace flocklift {
 namespace {
 
-constexpr double kCap = 16;             // of a squared innovation
+constexpr double kMostSurprise = 14;    // of one measurement: a wrong link is no lesson
 constexpr std::size_t kLeastPaths = 3;  // fewer teach nothing
-constexpr std::size_t kBankSamples = 20000;
+constexpr std::size_t kBankSamples = 3000;
+constexpr int kHorizon = 3;
 
 struct Nearest {
   int index = -1;
@@ -88,18 +91,25 @@ double Extent(const std::vector<Vec2d>& positions) {
   return std::hypot(high_x - low_x, high_y - low_y);
 }
 
+// Of the positions one frame and kHorizon frames ahead. The far look tells noise that comes and
+// goes (a wingbeat moves the blob's centre to and fro) from motion that stays.
 double LogLikelihood(std::span<const Path> paths, const MotionNoise& noise) {
   double sum = 0;
   for (const Path& path : paths) {
     const double q = noise.ProcessVariance(path.size), r = noise.MeasurementVariance(path.size);
-    MotionState state{path.positions[0], {0, 0}, r, 0, noise.speed_sd * noise.speed_sd};
+    MotionFilter filter({path.positions[0], {0, 0}, r, 0, noise.speed_sd * noise.speed_sd});
     for (std::size_t k = 1; k < path.positions.size(); ++k) {
-      Predict(&state, q);
-      if (k >= 3) {  // before, the velocity is not known
-        sum -= 0.5 * std::min(SquaredInnovation(state, path.positions[k], r), kCap) +
-               std::log(state.pp + r);
+      filter.Predict(q);
+      // Before the third, the velocity is not known.
+      if (k >= 3)
+        sum -= std::min(filter.NegativeLogLikelihood(path.positions[k], r), kMostSurprise);
+      if (k >= 3 && k + kHorizon - 1 < path.positions.size()) {
+        MotionFilter ahead = filter;
+        ahead.Predict(q, kHorizon - 1);
+        sum -= std::min(ahead.NegativeLogLikelihood(path.positions[k + kHorizon - 1], r),
+                        kMostSurprise);
       }
-      Update(&state, path.positions[k], r);
+      filter.Update(path.positions[k], r);
     }
   }
   return sum;
@@ -166,18 +176,28 @@ MotionNoise EstimateMotionNoise(std::span<const Path> paths, const MotionNoise& 
   }
   best.speed_sd = std::max(1.5 * std::sqrt(sum / std::max(count, 1.0)), 0.5);
 
-  double best_likelihood = -std::numeric_limits<double>::infinity();
-  const MotionNoise base = best;
-  for (int a = -18; a <= 2; ++a) {
-    for (int m = -12; m <= -2; ++m) {
-      MotionNoise noise = base;
-      noise.acceleration = std::exp2(0.5 * a);
-      noise.measurement = std::exp2(0.5 * m);
-      const double likelihood = LogLikelihood(some, noise);
-      if (likelihood > best_likelihood) {
-        best_likelihood = likelihood;
-        best = noise;
+  // One factor after the other, over octaves: the likelihood has one hill.
+  best.acceleration = std::exp2(-4);
+  best.measurement = std::exp2(-3.5);
+  double best_likelihood = LogLikelihood(some, best);
+  for (int round = 0; round < 3; ++round) {
+    const MotionNoise before = best;
+    for (const bool acceleration : {true, false}) {
+      const MotionNoise base = best;
+      for (int half_octaves = acceleration ? -20 : -12; half_octaves <= (acceleration ? 2 : -2);
+           half_octaves += round == 0 ? 2 : 1) {
+        MotionNoise noise = base;
+        (acceleration ? noise.acceleration : noise.measurement) = std::exp2(0.5 * half_octaves);
+        const double likelihood = LogLikelihood(some, noise);
+        if (likelihood > best_likelihood) {
+          best_likelihood = likelihood;
+          best = noise;
+        }
       }
+    }
+    if (round > 0 && best.acceleration == before.acceleration &&
+        best.measurement == before.measurement) {
+      break;
     }
   }
   return best;

@@ -18,9 +18,9 @@ std::vector<MotionState> Smooth(std::span<const Measurement> measurements, doubl
   predicted.push_back(state);
   filtered.push_back(state);
   for (int frame = first + 1; frame <= last; ++frame) {
-    Predict(&state, q);
+    Predict(&state, q * measurements[next].agility);
     predicted.push_back(state);
-    if (next < measurements.size() && measurements[next].frame == frame) {
+    if (measurements[next].frame == frame) {
       Update(&state, measurements[next].position, measurements[next].variance);
       ++next;
     }

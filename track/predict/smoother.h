@@ -18,6 +18,7 @@ struct Measurement {
   int frame = 0;
   Vec2d position;       // [px]
   double variance = 1;  // per axis [px^2]
+  double agility = 1;   // factor on q in the frames from the measurement before to this one
 };
 
 // States at the frames measurements.front().frame .. measurements.back().frame, one each, gaps

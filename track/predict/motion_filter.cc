@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "track/predict/motion_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace flocklift {
+namespace {
+
+// Mean and covariance of a mixture; the covariance, one for both axes, takes the mean of the axes'
+// spreads.
+MotionState MomentMatched(std::span<const MotionState> modes, std::span<const double> weights) {
+  MotionState mean{};
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    mean.position.x += weights[m] * modes[m].position.x;
+    mean.position.y += weights[m] * modes[m].position.y;
+    mean.velocity.x += weights[m] * modes[m].velocity.x;
+    mean.velocity.y += weights[m] * modes[m].velocity.y;
+  }
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    const MotionState& s = modes[m];
+    const double px = s.position.x - mean.position.x, py = s.position.y - mean.position.y;
+    const double vx = s.velocity.x - mean.velocity.x, vy = s.velocity.y - mean.velocity.y;
+    mean.pp += weights[m] * (s.pp + 0.5 * (px * px + py * py));
+    mean.pv += weights[m] * (s.pv + 0.5 * (px * vx + py * vy));
+    mean.vv += weights[m] * (s.vv + 0.5 * (vx * vx + vy * vy));
+  }
+  return mean;
+}
+
+}  // namespace
+
+MotionFilter::MotionFilter(const MotionState& start) : mean_(start) { modes_.fill(start); }
+
+void MotionFilter::Mix() {
+  constexpr double kLeave = (1 - kStay) / (kModes - 1);
+  std::array<MotionState, kModes> mixed;
+  std::array<double, kModes> weights;
+  for (int m = 0; m < kModes; ++m) {
+    std::array<double, kModes> from;
+    weights[m] = 0;
+    for (int n = 0; n < kModes; ++n) {
+      from[n] = (n == m ? kStay : kLeave) * weights_[n];
+      weights[m] += from[n];
+    }
+    for (double& w : from) w /= weights[m];
+    mixed[m] = MomentMatched(modes_, from);
+  }
+  modes_ = mixed;
+  weights_ = weights;
+}
+
+void MotionFilter::Predict(double q, int frames) {
+  for (int frame = 0; frame < frames; ++frame) {
+    Mix();
+    for (int m = 0; m < kModes; ++m) flocklift::Predict(&modes_[m], q * kFactors[m] * kFactors[m]);
+  }
+  mean_ = MomentMatched(modes_, weights_);
+}
+
+void MotionFilter::Update(const Vec2d& z, double r) {
+  std::array<double, kModes> log_weights;
+  for (int m = 0; m < kModes; ++m) {
+    log_weights[m] = std::log(weights_[m]) - 0.5 * SquaredInnovation(modes_[m], z, r) -
+                     std::log(modes_[m].pp + r);
+    flocklift::Update(&modes_[m], z, r);
+  }
+  const double best = *std::max_element(log_weights.begin(), log_weights.end());
+  double sum = 0;
+  for (int m = 0; m < kModes; ++m) {
+    weights_[m] = std::max(std::exp(log_weights[m] - best), 1e-6);
+    sum += weights_[m];
+  }
+  for (double& w : weights_) w /= sum;
+  mean_ = MomentMatched(modes_, weights_);
+}
+
+double MotionFilter::NegativeLogLikelihood(const Vec2d& z, double r) const {
+  std::array<double, kModes> terms;
+  for (int m = 0; m < kModes; ++m) {
+    terms[m] = std::log(weights_[m]) - 0.5 * SquaredInnovation(modes_[m], z, r) -
+               std::log(2 * std::numbers::pi * (modes_[m].pp + r));
+  }
+  const double best = *std::max_element(terms.begin(), terms.end());
+  double sum = 0;
+  for (const double t : terms) sum += std::exp(t - best);
+  return -best - std::log(sum);
+}
+
+double MotionFilter::agility() const {
+  double sum = 0;
+  for (int m = 0; m < kModes; ++m) sum += weights_[m] * kFactors[m] * kFactors[m];
+  return sum;
+}
+
+}  // namespace flocklift
