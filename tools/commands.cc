@@ -3,12 +3,16 @@
 
 #include "tools/commands.h"
 
+#include "tools/calibrate_command.h"
+#include "tools/camera_command.h"
 #include "tools/evaluate_command.h"
 #include "tools/reconstruct_command.h"
 
 namespace flocklift {
 
 void AddCommands(CLI::App& app) {
+  AddCameraCommand(app);
+  AddCalibrateCommand(app);
   AddReconstructCommand(app);
   AddEvaluateCommand(app);
 }
