@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Maximum-weight matching of a sparse bipartite graph: each row and each column is used at most
-// once, the sum of the chosen weights is as large as possible, nobody has to be matched. Exact, by
-// shortest augmenting paths over reduced costs (Jonker, Volgenant, "A shortest augmenting path
-// algorithm for dense and sparse linear assignment problems", Computing 38, 1987), with a private
-// column of weight 0 for every row that stays single.
+// once, the sum of the chosen weights is as large as possible, nobody has to be matched. Exact: the
+// assignment of track/associate/assignment.h with costs -weight and a price of 0 for staying alone.
 
 #ifndef FLOCKLIFT_TRACK_METRICS_MATCHING_H_
 #define FLOCKLIFT_TRACK_METRICS_MATCHING_H_
@@ -22,8 +20,7 @@ struct WeightedPair {
 };
 
 // Indices into `pairs` of the chosen ones, by increasing row. Pairs of weight <= 0 are never
-// chosen; of several pairs with the same row and column the heaviest counts. Time O(rows * edges
-// reached * log), memory O(pairs).
+// chosen; of several pairs with the same row and column the heaviest counts.
 std::vector<int> MaximumWeightMatching(std::span<const WeightedPair> pairs);
 
 }  // namespace flocklift
