@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/flock/predators.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace flocklift {
+namespace {
+
+const Region kBox{{-10, -10, 0}, {10, 10, 20}};
+
+TEST(Predators, WanderAtTheirSpeedNearTheBox) {
+  Predators predators(
+      {{.count = 3, .speed = 8, .fear_radius = 1, .fear_weight = 1, .turn_interval = 1}}, kBox, 3,
+      5);
+  ASSERT_EQ(predators.all().size(), 3U);
+  const Vec3d first_heading = predators.all()[0].heading;
+  bool turned = false;
+  for (std::uint32_t step = 0; step < 5000; ++step) {
+    predators.Step(0.01, step);
+    turned = turned || Dot(predators.all()[0].heading, first_heading) < 0;
+    for (const Predator& p : predators.all()) {
+      EXPECT_LT(Norm(p.position - kBox.Center()), 30);
+      EXPECT_LT(Norm(p.velocity), 8.001);
+    }
+  }
+  EXPECT_TRUE(turned);
+  EXPECT_GT(Norm(predators.all()[0].velocity), 2);
+}
+
+TEST(Predators, SameSeedSamePaths) {
+  const auto end = [](std::uint64_t seed) {
+    Predators predators({PredatorSpec{}}, kBox, 2, seed);
+    for (std::uint32_t step = 0; step < 500; ++step) predators.Step(0.01, step);
+    EXPECT_EQ(predators.all()[0].position.z, 0);
+    return predators.all()[0].position;
+  };
+  EXPECT_EQ(end(1), end(1));
+  EXPECT_NE(end(1), end(2));
+}
+
+TEST(Predators, NeedABox) {
+  const double far = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(Predators({PredatorSpec{}}, {{-far, 0, 0}, {1, 1, 1}}, 3, 1), std::invalid_argument);
+  EXPECT_TRUE(Predators({}, {{-far, 0, 0}, {1, 1, 1}}, 3, 1).all().empty());
+}
+
+}  // namespace
+}  // namespace flocklift
