@@ -7,12 +7,14 @@
 #include "tools/camera_command.h"
 #include "tools/evaluate_command.h"
 #include "tools/reconstruct_command.h"
+#include "tools/track_command.h"
 
 namespace flocklift {
 
 void AddCommands(CLI::App& app) {
   AddCameraCommand(app);
   AddCalibrateCommand(app);
+  AddTrackCommand(app);
   AddReconstructCommand(app);
   AddEvaluateCommand(app);
 }

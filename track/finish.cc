@@ -16,7 +16,7 @@ constexpr double kFilledConfidence = 0.4;
 
 bool StandsStill(const TrackRecord& record, double min_travel) {
   double left = 1e18, right = -1e18, top = 1e18, bottom = -1e18;
-  for (const Sighting& s : record.sightings) {
+  for (const TrackPoint& s : record.sightings) {
     left = std::min(left, s.position.x);
     right = std::max(right, s.position.x);
     top = std::min(top, s.position.y);
@@ -42,7 +42,7 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
       continue;
     }
     std::vector<Measurement> measurements;
-    for (const Sighting& s : record.sightings) {
+    for (const TrackPoint& s : record.sightings) {
       measurements.push_back({s.frame, s.position, s.variance, s.agility});
     }
     const std::vector<MotionState> states =
@@ -56,15 +56,15 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
       row.frame = frame;
       const Vec2d& p = states[k].position;
       if (record.sightings[next].frame == frame) {
-        const Sighting& s = record.sightings[next++];
+        const TrackPoint& s = record.sightings[next++];
         row.box = Box::Around(p, s.width, s.height);
         row.confidence = s.shared ? kSharedConfidence : 1.0;
         if (!s.shared) row.shape = s.shape;
         report->shared_rows += s.shared ? 1 : 0;
       } else {
         if (p.x < 0 || p.y < 0 || p.x > image_width - 1 || p.y > image_height - 1) continue;
-        const Sighting& before = record.sightings[next - 1];
-        const Sighting& after = record.sightings[next];
+        const TrackPoint& before = record.sightings[next - 1];
+        const TrackPoint& after = record.sightings[next];
         const double w = static_cast<double>(frame - before.frame) / (after.frame - before.frame);
         row.box = Box::Around(p, before.width + w * (after.width - before.width),
                               before.height + w * (after.height - before.height));

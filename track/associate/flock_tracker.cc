@@ -211,16 +211,16 @@ void FlockTracker::Sight(const BlobFrame& blobs, const Observation& o, Animal* a
   animal->motion.Update(o.position, variance);
   ++animal->hits;
   animal->missed = 0;
-  Sighting sighting{.frame = blobs.frame,
-                    .position = o.position,
-                    .variance = variance,
-                    .agility = animal->motion.agility(),
-                    .width = blob.box.width,
-                    .height = blob.box.height,
-                    .shape = {},
-                    .shared = shared};
+  TrackPoint sighting{.frame = blobs.frame,
+                      .position = o.position,
+                      .variance = variance,
+                      .agility = animal->motion.agility(),
+                      .width = blob.box.width,
+                      .height = blob.box.height,
+                      .shape = {},
+                      .shared = shared};
   if (shared) {
-    const Sighting& before = record.sightings.back();
+    const TrackPoint& before = record.sightings.back();
     sighting.width = before.width;
     sighting.height = before.height;
     sighting.shape = before.shape;

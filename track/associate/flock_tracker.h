@@ -41,7 +41,7 @@ void Describe(Visitor& visit, AssociationOptions& o) {
 }
 
 // An animal as it was seen in one frame.
-struct Sighting {
+struct TrackPoint {
   int frame = 0;
   Vec2d position;                // [px]
   double variance = 1;           // per axis [px^2]
@@ -55,7 +55,7 @@ struct Sighting {
 struct TrackRecord {
   double size = 1;  // usual, square root of area [px]
   double mass = 0;  // usual
-  std::vector<Sighting> sightings;
+  std::vector<TrackPoint> sightings;
 };
 
 class FlockTracker {

@@ -25,7 +25,7 @@ Ends EndsOf(const TrackRecord& track, const MotionNoise& noise) {
   const auto state = [&](std::size_t begin, std::size_t end, bool at_end) {
     std::vector<Measurement> some;
     for (std::size_t k = begin; k < end; ++k) {
-      const Sighting& s = track.sightings[k];
+      const TrackPoint& s = track.sightings[k];
       some.push_back({s.frame, s.position, s.variance, s.agility});
     }
     const auto states = Smooth(some, noise.ProcessVariance(track.size), noise.speed_sd);

@@ -78,7 +78,7 @@ cv::Mat MaskedMean(const cv::Mat& image, const cv::Mat& mask, int side) {
 
 }  // namespace
 
-double Background::Interpolate(const std::vector<float>& field, double x, double y) const {
+double LocalBackground::Interpolate(const std::vector<float>& field, double x, double y) const {
   const double gx = std::clamp((x + 0.5) / step_x - 0.5, 0.0, width - 1.0);
   const double gy = std::clamp((y + 0.5) / step_y - 0.5, 0.0, height - 1.0);
   const int i = std::min(static_cast<int>(gx), std::max(width - 2, 0));
@@ -91,13 +91,13 @@ double Background::Interpolate(const std::vector<float>& field, double x, double
          fy * ((1 - fx) * at[below] + fx * at[below + right]);
 }
 
-Background EstimateBackground(const GrayImage& image, double window, double least_noise) {
+LocalBackground EstimateBackground(const GrayImage& image, double window, double least_noise) {
   FLOCKLIFT_DCHECK(image.width > 0 && image.height > 0);
   const cv::Mat full(image.height, image.width, CV_8UC1,
                      const_cast<std::uint8_t*>(image.pixels.data()));
   const int factor = std::max(1, static_cast<int>(std::lround(image.height / 180.0)));
 
-  Background background;
+  LocalBackground background;
   background.width = std::max(1, image.width / factor);
   background.height = std::max(1, image.height / factor);
   background.step_x = static_cast<double>(image.width) / background.width;

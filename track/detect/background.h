@@ -18,7 +18,7 @@ namespace flocklift {
 
 // Two fields on a grid of width x height nodes that covers the image; node (i, j) stands at pixel
 // ((i + 0.5) step_x - 0.5, (j + 0.5) step_y - 0.5).
-struct Background {
+struct LocalBackground {
   int width = 0, height = 0;
   double step_x = 1, step_y = 1;
   std::vector<float> level;  // [grey levels]
@@ -34,7 +34,7 @@ struct Background {
 
 // `window` [px] is the side of the local mean, three or so times the length of an animal.
 // `least_noise` bounds the noise from below: a rendered sky has none.
-Background EstimateBackground(const GrayImage& image, double window, double least_noise);
+LocalBackground EstimateBackground(const GrayImage& image, double window, double least_noise);
 
 }  // namespace flocklift
 

@@ -30,7 +30,7 @@ cv::Mat View(const GrayImage& image) {
 }
 
 // 255 where the image passes the threshold, 0 elsewhere.
-GrayImage MaskOf(const GrayImage& image, const Background& background, bool dark,
+GrayImage MaskOf(const GrayImage& image, const LocalBackground& background, bool dark,
                  const std::vector<float>& threshold) {
   cv::Mat coarse(background.height, background.width, CV_8UC1);
   for (std::size_t k = 0; k < threshold.size(); ++k) {
@@ -142,7 +142,7 @@ void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
   cv::Mat smooth_view = View(smooth);
   cv::GaussianBlur(View(image), smooth_view, cv::Size(3, 3), 0);
   const double window = Window(image.height);
-  const Background background = EstimateBackground(smooth, window, kLeastNoise);
+  const LocalBackground background = EstimateBackground(smooth, window, kLeastNoise);
 
   const double sign = dark ? 1 : -1;
   const double least_contrast = options_.relative_contrast * usual_contrast_;
