@@ -3,7 +3,7 @@
 //
 // Separation of the UCSD assignment (equations.md, section 1): away from the mean offset of those
 // too near, not weighted by distance.
-//   a_i = gain * mean_j( w_j (x_i - x_j) ),   w_j = TaperWindow(|x_j - x_i|; radius, taper)
+//   a_i = -gain * mean_j( w_j (x_j - x_i) ),   w_j = TaperWindow(|x_j - x_i|; radius, taper)
 
 #ifndef FLOCKLIFT_SIMULATE_FORCES_SEPARATION_H_
 #define FLOCKLIFT_SIMULATE_FORCES_SEPARATION_H_
@@ -24,12 +24,12 @@ struct Separation {
   template <typename T, typename Taper>
   static Weighted<T> Pair(const Params<T, Taper>& p, const Vec3<T>& dx, const Vec3<T>& /*dv*/) {
     const T w = TaperWindow(Dot(dx, dx), p.radius, p.taper);
-    return {-(w * dx), w};
+    return {w * dx, w};
   }
 
   template <typename T, typename Taper>
   static Vec3<T> Finish(const Params<T, Taper>& p, const Weighted<T>& sum) {
-    return p.gain * Mean(sum);
+    return -p.gain * Mean(sum);
   }
 };
 

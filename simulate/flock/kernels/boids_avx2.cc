@@ -8,10 +8,14 @@
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
 
+#include "simulate/flock/kernels/arch.h"
+
+FLOCKLIFT_KERNEL_ARCH(Avx2, xsimd::avx2)
+
 namespace flocklift {
 namespace {
 
-std::uint64_t LaneMask(const xsimd::batch_bool<float, xsimd::avx2>& lanes) {
+std::uint64_t LaneMask(const xsimd::batch_bool<float, Avx2>& lanes) {
   return static_cast<unsigned>(_mm256_movemask_ps(lanes.data));
 }
 
@@ -48,7 +52,7 @@ std::uint32_t AppendSetBits(std::uint64_t mask, std::uint32_t base, std::uint32_
 namespace flocklift {
 
 void BoidsKernelAvx2(const BoidsJob& job, int first_row, int last_row, std::uint32_t* candidates) {
-  BoidsRows<xsimd::batch<float, xsimd::avx2>>(job, first_row, last_row, candidates);
+  BoidsRows<xsimd::batch<float, Avx2>>(job, first_row, last_row, candidates);
 }
 
 }  // namespace flocklift

@@ -43,11 +43,12 @@ struct BoidsKernelVariant {
 };
 
 // From the most portable to the fastest.
-inline constexpr int kBoidsKernelVariants = 2;
+inline constexpr int kBoidsKernelVariants = 3;
 extern const BoidsKernelVariant kBoidsKernels[kBoidsKernelVariants];
 
 void BoidsKernelSse2(const BoidsJob& job, int first_row, int last_row, std::uint32_t* candidates);
 void BoidsKernelAvx2(const BoidsJob& job, int first_row, int last_row, std::uint32_t* candidates);
+void BoidsKernelAvx512(const BoidsJob& job, int first_row, int last_row, std::uint32_t* candidates);
 
 }  // namespace flocklift
 
