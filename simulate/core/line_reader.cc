@@ -12,7 +12,7 @@
 namespace flocklift {
 namespace {
 
-constexpr std::size_t kBlock = 1 << 18;  // also the longest line
+constexpr std::size_t kBlock = 1 << 16;  // also the longest line
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
@@ -41,7 +41,7 @@ bool LineReader::Next(std::string_view* line) {
     if (newline != nullptr) break;
     searched = end_ - begin_;
     if (searched == buffer_.size()) {
-      throw InputError(name_, line_ + 1, "the line is longer than 262144 characters",
+      throw InputError(name_, line_ + 1, "the line is longer than 65536 characters",
                        "give a text file with one row a line");
     }
     if (!Refill()) break;
