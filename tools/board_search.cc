@@ -139,14 +139,14 @@ BoardSearch SearchPictures(const std::vector<fs::path>& pictures, const Board& b
   return search;
 }
 
-BoardSearch SearchVideo(const fs::path& video, const Board& board, int max_views,
+BoardSearch SearchVideo(const fs::path& video, const Board& board, int tries, int max_views,
                         const Progress& progress) {
-  constexpr std::int64_t kStretches = 200, kUnknownStretch = 10;
+  constexpr std::int64_t kUnknownStretch = 10;
   CheckBoard(board);
   VideoSource source(video);
   const auto frames = source.frame_count();
   const std::int64_t stretch =
-      frames ? std::max<std::int64_t>(1, *frames / kStretches) : kUnknownStretch;
+      frames ? std::max<std::int64_t>(1, *frames / tries) : kUnknownStretch;
   BoardSearch search;
   search.width = source.width();
   search.height = source.height();

@@ -31,10 +31,10 @@ struct BoardSearch {
 BoardSearch SearchPictures(const std::vector<std::filesystem::path>& pictures, const Board& board,
                            int threads, const Progress& progress);
 
-// Tries the sharpest frame of each of about 200 stretches of the video, and keeps at most
+// Tries the sharpest frame of each of about `tries` stretches of the video, and keeps at most
 // `max_views` views, spread well over place, size and tilt.
-BoardSearch SearchVideo(const std::filesystem::path& video, const Board& board, int max_views,
-                        const Progress& progress);
+BoardSearch SearchVideo(const std::filesystem::path& video, const Board& board, int tries,
+                        int max_views, const Progress& progress);
 
 }  // namespace flocklift
 

@@ -95,13 +95,15 @@ void PrintTables(const std::vector<Parameter>& parameters, const Calibration& ca
   }
 }
 
+constexpr int kFramesTried = 200;  // of a video
+
 BoardSearch Search(const CalibrateCommand& command, const Board& board, const CommonOptions& common,
                    Stage* stage) {
   const auto pictures = ExpandPictures(command.pictures);
   for (const auto& path : pictures.empty() ? command.pictures : pictures) stage->AddInput(path);
   BoardSearch search;
   if (pictures.empty()) {
-    search = SearchVideo(command.pictures.front(), board, command.views,
+    search = SearchVideo(command.pictures.front(), board, kFramesTried, command.views,
                          stage->BeginPhase("find board", "frames"));
   } else {
     search = SearchPictures(pictures, board, common.ThreadCount(),

@@ -22,6 +22,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 Rigid3d PoseOf(const CameraCommand& command) {
   if (command.position.empty()) {
+    Check(std::isfinite(command.pitch_deg) && std::isfinite(command.height),
+          "--pitch and --height must be finite numbers");
     const double pitch = command.pitch_deg * kDegree;
     const Vec3d position{0, 0, command.height};
     return LookAt(position, position + Vec3d{0, std::cos(pitch), std::sin(pitch)});

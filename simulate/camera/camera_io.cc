@@ -185,7 +185,7 @@ void ReadExtrinsics(const OpenCvYaml& yaml, Camera* camera) {
 
 // Shortest text that reads back as the same double, with the point that OpenCV puts.
 std::string Real(double value) {
-  std::string text = fmt::format("{}", value);
+  std::string text = fmt::format("{}", value + 0.0);  // no negative zero
   if (text.find_first_of(".en") == std::string::npos) text += '.';
   return text;
 }
