@@ -15,7 +15,7 @@
 namespace flocklift::internal {
 namespace {
 
-constexpr hsize_t kRowsPerChunk = 16384;
+constexpr hsize_t kRowsPerChunk = 4096;
 
 // A growing dataset of one dimension.
 class ColumnWriter {

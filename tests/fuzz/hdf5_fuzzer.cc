@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "simulate/core/hdf5_handle.h"
@@ -21,40 +22,63 @@ namespace {
 
 using flocklift::internal::Hdf5Handle;
 
-constexpr std::array<const char*, 13> kTrajectoryColumns{
-    "frame", "id", "x", "y", "z", "vx", "vy", "vz", "qw", "qx", "qy", "qz", "sd_depth"};
-constexpr std::array<const char*, 7> kTrackColumns{"frame", "id",     "left",      "top",
-                                                   "width", "height", "confidence"};
+// A column, and how a byte becomes a value that the reader takes: low + scale * byte.
+struct ColumnSpec {
+  const char* name;
+  double low, scale;
+};
+constexpr std::array<ColumnSpec, 13> kTrajectoryColumns{{{"frame", 1, 1},
+                                                         {"id", 1, 1},
+                                                         {"x", -20, 0.25},
+                                                         {"y", -20, 0.3},
+                                                         {"z", 0, 1e-3},
+                                                         {"vx", 0, 0.1},
+                                                         {"vy", -1e6, 1e4},
+                                                         {"vz", 0, 1e-12},
+                                                         {"qw", 1, 1e-6},
+                                                         {"qx", 0, 1e-5},
+                                                         {"qy", 0, 0},
+                                                         {"qz", 0, 0},
+                                                         {"sd_depth", 0, 0.1}}};
+constexpr std::array<ColumnSpec, 7> kTrackColumns{{{"frame", 1, 1},
+                                                   {"id", 1, 1},
+                                                   {"left", -20, 10},
+                                                   {"top", -20, 0.3},
+                                                   {"width", 1e-3, 0.5},
+                                                   {"height", 1e-6, 1e-3},
+                                                   {"confidence", 0, 1.0 / 256}}};
 
 class TableBuilder {
  public:
   TableBuilder(FuzzedDataProvider* choices, hid_t group) : choices_(*choices), group_(group) {}
 
-  void AddColumn(const char* name, std::size_t rows) {
-    switch (choices_.ConsumeIntegralInRange(0, 15)) {
-      case 0:
-        return;  // left out
+  // Well made unless the input chooses a defect; what it does not choose is 0.
+  void AddColumn(const ColumnSpec& column, std::size_t rows) {
+    switch (choices_.ConsumeIntegral<std::uint8_t>()) {
       case 1:
-        Hdf5Handle(H5Gcreate2(group_, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-        return;
+        return;  // left out
       case 2:
-        AddText(name);
+        Hdf5Handle(H5Gcreate2(group_, column.name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                   H5Gclose);
         return;
       case 3:
-        AddNumbers(name, rows + choices_.ConsumeIntegralInRange(0, 3), 1);
+        AddText(column.name);
         return;
       case 4:
-        AddNumbers(name, rows, choices_.ConsumeIntegralInRange(0, 3));
+        AddNumbers(column, rows + choices_.ConsumeIntegralInRange(0, 3), 1);
+        return;
+      case 5:
+        AddNumbers(column, rows, choices_.ConsumeIntegralInRange(0, 3));
         return;
       default:
-        AddNumbers(name, rows, 1);
+        AddNumbers(column, rows, 1);
     }
   }
 
   void AddFps() {
     const Hdf5Handle space(H5Screate(choices_.ConsumeBool() ? H5S_SCALAR : H5S_NULL), H5Sclose);
     if (choices_.ConsumeBool()) {
-      const double fps = Number();
+      const double fps = choices_.ConsumeBool() ? AnyNumber() : 25;
       WriteAttribute(H5T_NATIVE_DOUBLE, space, &fps);
       return;
     }
@@ -77,13 +101,12 @@ class TableBuilder {
     H5Awrite(attribute.get(), type, value);
   }
 
-  // Mostly what tables hold, sometimes anything.
-  double Number() {
-    if (choices_.ConsumeIntegralInRange(0, 7) > 0) return choices_.ConsumeIntegral<std::uint8_t>();
+  double AnyNumber() {
     return choices_.ConsumeBool()
                ? choices_.ConsumeFloatingPoint<double>()
-               : choices_.PickValueInArray({0.0, -1.0, 0.5, 1e300, 1e-300, static_cast<double>(NAN),
-                                            static_cast<double>(INFINITY)});
+               : choices_.PickValueInArray({0.0, -1.0, 0.5, 1e300, 1e-300,
+                                            std::numeric_limits<double>::quiet_NaN(),
+                                            std::numeric_limits<double>::infinity()});
   }
 
   void AddText(const char* name) {
@@ -94,9 +117,12 @@ class TableBuilder {
         H5Dclose);
   }
 
-  void AddNumbers(const char* name, std::size_t rows, int dimensions) {
+  void AddNumbers(const ColumnSpec& column, std::size_t rows, int dimensions) {
     std::vector<double> values(rows);
-    for (double& value : values) value = Number();
+    for (double& value : values) {
+      const std::uint8_t byte = choices_.ConsumeIntegral<std::uint8_t>();
+      value = byte < 255 ? column.low + column.scale * byte : AnyNumber();
+    }
     const std::array<hsize_t, 3> sizes{rows, 1, 1};
     const Hdf5Handle space(dimensions == 0 ? H5Screate(H5S_SCALAR)
                                            : H5Screate_simple(dimensions, sizes.data(), nullptr),
@@ -104,7 +130,7 @@ class TableBuilder {
     const hid_t type = choices_.PickValueInArray({H5T_IEEE_F64LE, H5T_IEEE_F32BE, H5T_STD_I64LE,
                                                   H5T_STD_U64BE, H5T_STD_I32LE, H5T_STD_U8LE});
     const Hdf5Handle dataset(
-        H5Dcreate2(group_, name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dcreate2(group_, column.name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
         H5Dclose);
     if (rows > 0) {
       H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
@@ -123,9 +149,10 @@ void BuildFile(FuzzedDataProvider* choices, const std::filesystem::path& path, c
   const Hdf5Handle table(H5Gcreate2(file.get(), group, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                          H5Gclose);
   TableBuilder builder(choices, table.get());
-  const std::size_t rows = choices->ConsumeIntegralInRange<std::size_t>(0, 6);
+  constexpr std::size_t kMostRows = 6;
+  const std::size_t rows = kMostRows - choices->ConsumeIntegralInRange<std::size_t>(0, kMostRows);
+  for (const ColumnSpec& column : columns) builder.AddColumn(column, rows);
   if (choices->ConsumeBool()) builder.AddFps();
-  for (const char* column : columns) builder.AddColumn(column, rows);
 }
 
 void CheckTrajectories(const std::filesystem::path& path) {
