@@ -47,7 +47,8 @@ std::vector<double> SearchDepth(const DepthSearchPriors& p, double interval,
   const double depth_share = share(p.depth_time), climb_share = share(p.climb_time);
   // The grid itself makes accelerations of a third of a cell.
   const double grid_sd = 0.33 * cell * reference_depth / (interval * interval);
-  const double acceleration_sd = std::hypot(p.acceleration_sd, grid_sd);
+  const double acceleration_sd =
+      std::hypot(p.acceleration_sd / std::sqrt(share(p.acceleration_time)), grid_sd);
 
   const auto point = [&](int k, int level) {
     return Vec3d{depth[level] * steps[k].ray.x, depth[level] * steps[k].ray.y, depth[level]};

@@ -6,7 +6,7 @@
 // and descent from a constant depth falls into the wrong one; the grid sees both. With points
 // p_k = exp(L_k) (x_k, y_k, 1) at steps of H seconds the cost is the sum of
 //   ((log |p_{k+1} - p_k| / H - log speed) / speed_sd)^2 share      squares beyond 3 sd count
-//   (|p_{k+2} - 2 p_{k+1} + p_k| / (H^2 z_k / z_ref) / acceleration_sd)^2   linearly
+//   (|p_{k+2} - 2 p_{k+1} + p_k| / (H^2 z_k / z_ref) / acceleration_sd)^2 share   linearly
 //   ((log size_k - log width + L_k) / size_sd)^2 share
 //   (climb / climb_sd)^2 share,  ((L_k - log_depth) / depth_sd)^2 share
 // where share = H / (2 tau) turns correlated errors into as many independent ones.
@@ -23,7 +23,7 @@ namespace flocklift {
 
 struct DepthSearchPriors {
   double log_speed = 0, speed_sd = 0.15, speed_time = 1.5;  // log m/s
-  double acceleration_sd = 4;                               // [m/s^2]
+  double acceleration_sd = 3, acceleration_time = 0.7;      // [m/s^2]
   double log_width = 0, size_sd = 0.2, size_time = 0.3;     // log m, mean over all views
   double log_depth = 0, depth_sd = 0.5, depth_time = 3;     // of the flock's middle, log m
   double climb_sd = 0.15, climb_time = 1.5;                 // sine of the angle

@@ -3,6 +3,7 @@
 
 #include "reconstruct/initialize/scale_guess.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -34,6 +35,34 @@ void AddImageSpeeds(const Segment& segment, std::vector<double>* speeds) {
   }
 }
 
+// Second derivatives of the rays by parabolas over windows of about half a second, squared, and
+// what noise makes of them.
+void AddImageAccelerations(const Segment& segment, std::vector<double>* squares) {
+  constexpr double kSpan = 0.6;
+  const auto& s = segment.sightings;
+  for (std::size_t begin = 0, end = 0; begin < s.size(); begin = end) {
+    while (end < s.size() && s[end].time - s[begin].time < kSpan) ++end;
+    const std::size_t n = end - begin;
+    if (n < 5 || s[end - 1].time - s[begin].time < 0.7 * kSpan) continue;
+    const double middle = 0.5 * (s[begin].time + s[end - 1].time);
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
+    double noise = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const double t = s[k].time - middle;
+      const Eigen::Vector3d row(1, t, 0.5 * t * t);
+      normal += row * row.transpose();
+      right += row * Eigen::RowVector2d(s[k].ray.x, s[k].ray.y);
+      noise += s[k].ray_sd * s[k].ray_sd / static_cast<double>(n);
+    }
+    const Eigen::Matrix3d inverse = normal.inverse();
+    const Eigen::RowVector2d a = inverse.row(2) * right;
+    for (int axis = 0; axis < 2; ++axis) {
+      squares->push_back(a[axis] * a[axis] - noise * inverse(2, 2));
+    }
+  }
+}
+
 double LateralSpread(const Segments& segments) {
   struct Moments {
     double n = 0, x = 0, y = 0, squares = 0;
@@ -60,9 +89,10 @@ double LateralSpread(const Segments& segments) {
 }  // namespace
 
 ScaleGuess GuessScale(const Knowledge& knowledge, const Segments& segments) {
-  std::vector<double> speeds, sizes;
+  std::vector<double> speeds, sizes, accelerations;
   for (const Segment& segment : segments.segments) {
     AddImageSpeeds(segment, &speeds);
+    AddImageAccelerations(segment, &accelerations);
     for (const Sighting& s : segment.sightings) {
       if (s.log_size) sizes.push_back(*s.log_size);
     }
@@ -72,6 +102,9 @@ ScaleGuess GuessScale(const Knowledge& knowledge, const Segments& segments) {
 
   ScaleGuess guess;
   guess.lateral_spread = LateralSpread(segments);
+  // The median of a squared normal is 0.455 of its variance.
+  guess.image_acceleration =
+      std::sqrt(std::max(0.0, Quantile(std::move(accelerations), 0.5, 0) / 0.455));
   if (knowledge.wingspan && !sizes.empty()) {
     guess.log_depth = std::log(knowledge.wingspan->mean) - log_size;
   } else if (knowledge.near && knowledge.far) {

@@ -17,6 +17,7 @@ struct ScaleGuess {
   double log_speed = 0;       // mean of the flock [log m/s]
   double log_width = 0;       // apparent width in metres of an animal over all views [log m]
   double lateral_spread = 0;  // sd of the animals' rays around the flock's middle, one coordinate
+  double image_acceleration = 0;     // robust sd of a ray's acceleration, one coordinate [1/s^2]
   double log_near = 0, log_far = 0;  // bounds for searching [log m]
 };
 

@@ -45,7 +45,8 @@ double EstimatePixelSd(const Tracks& tracks) {
   return Median(std::move(differences)) / (kMedianOfNormal * std::sqrt(20.0));
 }
 
-double MedianBoxOverShape(const Tracks& tracks) {
+// Log of (size by box over size by shape), median of the detections that have both.
+std::optional<double> MedianBoxOverShape(const Tracks& tracks) {
   std::vector<double> ratios;
   for (const Tracklet& tracklet : tracks.tracklets) {
     for (const Detection& d : tracklet.detections) {
@@ -55,6 +56,7 @@ double MedianBoxOverShape(const Tracks& tracks) {
       if (shape > 0 && box > 0) ratios.push_back(std::log(box / shape));
     }
   }
+  if (ratios.empty()) return std::nullopt;
   return Median(std::move(ratios));
 }
 
@@ -156,7 +158,8 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
   Check(fps > 0, "reconstruct needs a positive number of frames per second");
   Segments result;
   result.pixel_sd = std::max(EstimatePixelSd(tracks), options.min_pixel_sd);
-  result.size_from_shape = MedianBoxOverShape(tracks);
+  const std::optional<double> box_over_shape = MedianBoxOverShape(tracks);
+  result.has_shapes = box_over_shape.has_value();
   const int first_frame = SpanOf(tracks).first;
   for (const Tracklet& tracklet : tracks.tracklets) {
     Segment segment{tracklet.id, {}};
@@ -176,8 +179,9 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
       if (options.use_size && IsMeasured(d)) {
         const double box_px = Diagonal(d.box.width, d.box.height);
         const double size_px =
-            d.shape ? Diagonal(d.shape->major, d.shape->minor) * std::exp(result.size_from_shape)
-                    : box_px;
+            d.shape && box_over_shape
+                ? Diagonal(d.shape->major, d.shape->minor) * std::exp(*box_over_shape)
+                : box_px;
         if (size_px > 0) sighting.log_size = std::log(size_px / focal_px);
       }
       segment.sightings.push_back(sighting);

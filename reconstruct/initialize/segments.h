@@ -45,7 +45,7 @@ struct Segments {
   int cuts = 0;                   // where the image motion jumped
   int rows = 0;                   // detections in all segments
   int unusable = 0;               // detections without a ray (beyond the fold of the distortion)
-  double size_from_shape = 0;     // log of (size by box over size by shape), median; 0 without
+  bool has_shapes = false;        // sizes come from shapes
 };
 
 // Every detection comes into exactly one segment. The noise is estimated from third differences of

@@ -18,7 +18,7 @@ struct BatchOptions {
   double speed_time = 1.5;
   double size_sd = 0.15;
   double size_time = 0.3;
-  double size_ratio_sd = 0.1;
+  double size_ratio_sd = 0.15;
   double climb_sd = 0.12;
   double climb_time = 2;
   double depth_time = 4;

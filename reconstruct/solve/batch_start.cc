@@ -14,15 +14,15 @@ namespace {
 
 // A prior that says next to nothing, of a logarithm.
 constexpr double kVague = 3;
-// Proportions of a bird's second moments, |wings|^2 : |trunk|^2 : |up|^2: a trunk of half to two
-// thirds of the span; wings that beat +-50 degrees lose a third of their squared extent and give
-// an eighth to a fifth of it to the vertical.
-constexpr Uncertain kTrunkPrior{-0.9, 0.4};
-constexpr Uncertain kUpPrior{-1.8, 0.5};
-// Box over wingspan: flapping shortens it by up to a sixth, blur lengthens it a little.
-constexpr double kRatioMean = -0.05;
-// Mean of log sqrt(Q) over all views, for the proportions above.
-constexpr double kMeanExtent = 0.02;
+// Squared extents of a bird over its wingspan squared: gliding, wings 1, trunk 1/4, up next to
+// nothing; beating +-50 degrees, wings 0.69 and up 0.08 in the mean. As proportions to the wings;
+// second moments of a silhouette weigh body and wings by area and vary more than boxes.
+constexpr Uncertain kTrunkOfBoxes{-1.2, 0.4}, kUpOfBoxes{-2.2, 0.7};
+constexpr Uncertain kTrunkOfShapes{-1.2, 0.6}, kUpOfShapes{-1.6, 0.7};
+// Log of the wings' own extent over the wingspan: 0 gliding, -0.2 to -0.3 beating, blur adds.
+constexpr double kRatioMean = -0.12;
+// Mean of log sqrt(Q) over all views, for these proportions.
+constexpr double kMeanExtent = -0.05;
 
 Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time) {
   const double position = time / model.knot_interval - bird.first_knot;
@@ -54,7 +54,7 @@ void SmoothImagePath(const BatchModel& model, Bird* bird) {
   }
   const double sd = 2 * model.spreads.acceleration.sd / bird->reference_depth;
   for (int knot = 0; knot < bird->knots; ++knot) {
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 2; ++axis) {
       ResidualRow row;
       row.first = 3 * knot;
       row.path[axis] = row.path[axis + 6] = rate2 / sd;
@@ -62,16 +62,18 @@ void SmoothImagePath(const BatchModel& model, Bird* bird) {
       take(Term::kAcceleration, row);
     }
   }
-  for (int axis = 0; axis < 3; ++axis) {  // a slope that a single sighting leaves open; L's level
+  for (int axis = 0; axis < 2; ++axis) {  // a slope that a single sighting leaves open
     ResidualRow row;
-    row.path[axis] = -1e-3 / sd;
-    row.path[axis + 3] = axis == 2 ? 1e-3 : 0;
-    row.path[axis + 6] = 1e-3 / sd;
+    row.path[axis] = -1e-2 * rate2 / sd;
+    row.path[axis + 6] = 1e-2 * rate2 / sd;
     take(Term::kAnyVelocity, row);
   }
-  ResidualRow level;
-  level.path[5] = 1;
-  take(Term::kDepth, level);
+  for (int control = 0; control < bird->knots + 2; ++control) {  // L is not solved for here
+    ResidualRow row;
+    row.first = 3 * control;
+    row.path[2] = 1;
+    take(Term::kDepth, row);
+  }
   Eigen::MatrixXd none(0, 0);
   Eigen::VectorXd nothing(0);
   if (!system.Reduce(0, &none, &nothing)) return;
@@ -123,6 +125,7 @@ void StartDepth(const BatchModel& model, const ScaleGuess& guess, Bird* bird) {
       .speed_sd = std::hypot(s.speed_between, s.speed.sd, std::min(model.flock_log_speed.sd, 0.3)),
       .speed_time = s.speed.time,
       .acceleration_sd = s.acceleration.sd,
+      .acceleration_time = s.acceleration.time,
       .log_width = guess.log_width + kMeanExtent,
       .size_sd = std::hypot(s.size.sd, s.size_between, 0.1),
       .size_time = s.size.time,
@@ -152,6 +155,10 @@ BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
   model.knot_interval = std::max(options.knot_interval, 1 / fps);
   Spreads& s = model.spreads;
   s.acceleration = {options.acceleration_sd, options.acceleration_time};
+  if (options.estimate && guess.image_acceleration > 0) {
+    s.acceleration.sd = std::max(0.3 * options.acceleration_sd,
+                                 guess.image_acceleration * std::exp(guess.log_depth));
+  }
   s.speed = {options.speed_sd, options.speed_time};
   s.size = {options.size_sd, options.size_time};
   s.climb = {options.climb_sd, options.climb_time};
@@ -171,8 +178,8 @@ BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
   model.size_ratio = knowledge.wingspan
                          ? Uncertain{kRatioMean, std::hypot(options.size_ratio_sd, s.size_between)}
                          : Uncertain{guess.log_width, kVague};
-  model.log_trunk = kTrunkPrior;
-  model.log_up = kUpPrior;
+  model.log_trunk = segments.has_shapes ? kTrunkOfShapes : kTrunkOfBoxes;
+  model.log_up = segments.has_shapes ? kUpOfShapes : kUpOfBoxes;
   model.log_depth = {guess.log_depth, kVague};
   if (knowledge.near && knowledge.far) {
     // Anywhere between them: the sd of a uniform distribution.
