@@ -23,7 +23,9 @@ struct Image {
         bgr(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * 3) {}
 
   std::uint8_t* Row(int v) { return bgr.data() + static_cast<std::size_t>(v) * width * 3; }
-  const std::uint8_t* Row(int v) const { return bgr.data() + static_cast<std::size_t>(v) * width * 3; }
+  const std::uint8_t* Row(int v) const {
+    return bgr.data() + static_cast<std::size_t>(v) * width * 3;
+  }
 };
 
 }  // namespace flocklift

@@ -23,7 +23,7 @@ class Rng {
   explicit Rng(std::uint64_t seed, std::uint64_t agent = 0, std::uint32_t step = 0);
 
   std::uint32_t Bits();
-  double Uniform();                        // in (0, 1), never 0 or 1
+  double Uniform();  // in (0, 1), never 0 or 1
   double Uniform(double low, double high);
   double Normal();                         // mean 0, standard deviation 1 (Box-Muller)
   std::uint32_t Below(std::uint32_t end);  // 0 .. end - 1

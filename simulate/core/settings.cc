@@ -119,33 +119,34 @@ bool Settings::Fps(std::string_view key, double* value) {
 }
 
 Vec3d Settings::CheckedVector(const toml::array& numbers, std::string_view key,
-                              bool may_be_flat) const {
-  const bool is_flat = numbers.size() == 2 && may_be_flat;
-  if (numbers.size() != 3 && !is_flat) {
+                              bool is_flat) const {
+  if (numbers.size() != 3 && !(is_flat && numbers.size() == 2)) {
     FailAt(numbers, name_, fmt::format("{} in {} has {} numbers", key, heading_, numbers.size()),
-           may_be_flat ? "give [x, y]" : "give [x, y, z] in metres");
+           is_flat ? "give [x, y]" : "give [x, y, z] in metres");
   }
-  return {CheckedNumber(numbers[0], key, {}), CheckedNumber(numbers[1], key, {}),
-          is_flat ? 0 : CheckedNumber(numbers[2], key, {})};
+  Vec3d vector{CheckedNumber(numbers[0], key, {}), CheckedNumber(numbers[1], key, {}), 0};
+  if (numbers.size() == 3) vector.z = CheckedNumber(numbers[2], key, {});
+  if (is_flat) vector.z = 0;
+  return vector;
 }
 
-bool Settings::Vector(std::string_view key, Vec3d* value, bool may_be_flat) {
+bool Settings::Vector(std::string_view key, Vec3d* value, bool is_flat) {
   const toml::array* const numbers = FindArray(key);
-  if (numbers != nullptr) *value = CheckedVector(*numbers, key, may_be_flat);
+  if (numbers != nullptr) *value = CheckedVector(*numbers, key, is_flat);
   return numbers != nullptr;
 }
 
-bool Settings::Corners(std::string_view key, Vec3d* low, Vec3d* high, bool may_be_flat) {
+bool Settings::Corners(std::string_view key, Vec3d* low, Vec3d* high, bool is_flat) {
   const toml::array* const corners = FindArray(key);
   if (corners == nullptr) return false;
   if (corners->size() != 2 || !corners->is_homogeneous(toml::node_type::array)) {
     Fail(key, fmt::format("{} in {} is not a pair of corners", key, heading_),
-         may_be_flat ? "give [[x, y], [x, y]]" : "give [[x, y, z], [x, y, z]]");
+         is_flat ? "give [[x, y], [x, y]]" : "give [[x, y, z], [x, y, z]]");
   }
-  *low = CheckedVector(*(*corners)[0].as_array(), key, may_be_flat);
-  *high = CheckedVector(*(*corners)[1].as_array(), key, may_be_flat);
+  *low = CheckedVector(*(*corners)[0].as_array(), key, is_flat);
+  *high = CheckedVector(*(*corners)[1].as_array(), key, is_flat);
   const Vec3d extent = *high - *low;
-  const bool has_height = extent.z > 0 || (may_be_flat && extent.z == 0);
+  const bool has_height = extent.z > 0 || (is_flat && extent.z == 0);
   if (!(extent.x > 0 && extent.y > 0 && has_height)) {
     Fail(key, fmt::format("{} in {} has no extent along some axis", key, heading_),
          "give the low corner first, then the high one");

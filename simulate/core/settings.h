@@ -45,11 +45,11 @@ class Settings {
   bool Integer(std::string_view key, std::int64_t* value, std::int64_t low, std::int64_t high);
   bool Text(std::string_view key, std::string* value, const std::vector<std::string>& choices = {});
   bool Fps(std::string_view key, double* value);  // a number, or a ratio as text
-  // [x, y, z], and [x, y] (z = 0) when `may_be_flat`.
-  bool Vector(std::string_view key, Vec3d* value, bool may_be_flat);
+  // [x, y, z]; when `is_flat`, also [x, y], and z becomes 0.
+  bool Vector(std::string_view key, Vec3d* value, bool is_flat);
 
   // [[x, y, z], [x, y, z]]: the low corner of a box with some extent, then the high one.
-  bool Corners(std::string_view key, Vec3d* low, Vec3d* high, bool may_be_flat);
+  bool Corners(std::string_view key, Vec3d* low, Vec3d* high, bool is_flat);
 
   // The node of a key, null when absent; checks nothing but marks the key as known.
   const toml::node* Find(std::string_view key);
@@ -74,7 +74,7 @@ class Settings {
 
  private:
   double CheckedNumber(const toml::node& node, std::string_view key, const Limits& limits) const;
-  Vec3d CheckedVector(const toml::array& numbers, std::string_view key, bool may_be_flat) const;
+  Vec3d CheckedVector(const toml::array& numbers, std::string_view key, bool is_flat) const;
 
   const toml::table& table_;
   std::string name_, heading_;

@@ -31,13 +31,14 @@ Shape CheckedShape(const TableRow& row) {
     row.Fail(fmt::format("the axes are {:g} and {:g} pixels", v[kMajor], v[kMinor]),
              "give major >= minor >= 0 and major > 0, or take the row out");
   }
-  if (!(v[kAngle] >= 0 && v[kAngle] < kHalfTurn)) {
+  // Exactly 180 is what other programs round 179.999 to: the same direction as 0.
+  if (!(v[kAngle] >= 0 && v[kAngle] <= kHalfTurn)) {
     row.Fail(fmt::format("angle is {:g}", v[kAngle]), "turn it by 180 degrees into [0, 180)");
   }
   if (!(v[kArea] > 0)) {
     row.Fail(fmt::format("area is {:g}", v[kArea]), "give a positive one, or take the row out");
   }
-  return {v[kMajor], v[kMinor], v[kAngle], v[kArea]};
+  return {v[kMajor], v[kMinor], v[kAngle] < kHalfTurn ? v[kAngle] : 0, v[kArea]};
 }
 
 Detection* FindDetection(Tracks* tracks, Id id, int frame) {

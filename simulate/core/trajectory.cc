@@ -43,9 +43,9 @@ void ComputeVelocities(double fps, Trajectories* trajectories) {
 FlockState StateAtFrame(const Trajectories& trajectories, int frame) {
   FlockState state;
   for (const Trajectory& trajectory : trajectories.trajectories) {
-    const auto point = std::lower_bound(
-        trajectory.points.begin(), trajectory.points.end(), frame,
-        [](const TrajectoryPoint& p, int wanted) { return p.frame < wanted; });
+    const auto point =
+        std::lower_bound(trajectory.points.begin(), trajectory.points.end(), frame,
+                         [](const TrajectoryPoint& p, int wanted) { return p.frame < wanted; });
     if (point == trajectory.points.end() || point->frame != frame) continue;
     state.id.push_back(trajectory.id);
     state.position.push_back(point->position);
@@ -55,13 +55,13 @@ FlockState StateAtFrame(const Trajectories& trajectories, int frame) {
 }
 
 FrameSpan SpanOf(const Trajectories& trajectories) {
-  return SpanOfRows(trajectories.trajectories,
-                    [](const Trajectory& t) -> const auto& { return t.points; });
+  return SpanOfRows(
+      trajectories.trajectories, [](const Trajectory& t) -> const auto& { return t.points; });
 }
 
 FrameSpan SpanOf(const Tracks& tracks) {
-  return SpanOfRows(tracks.tracklets,
-                    [](const Tracklet& t) -> const auto& { return t.detections; });
+  return SpanOfRows(
+      tracks.tracklets, [](const Tracklet& t) -> const auto& { return t.detections; });
 }
 
 }  // namespace flocklift

@@ -30,7 +30,8 @@ struct Trajectory {
   std::vector<TrajectoryPoint> points;
 };
 
-// All trajectories of a sequence, by increasing id, and which of the optional columns mean anything.
+// All trajectories of a sequence, by increasing id, and which of the optional columns mean
+// anything.
 struct Trajectories {
   std::optional<double> fps;  // [1/s]
   bool has_velocity = false;

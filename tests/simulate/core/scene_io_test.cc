@@ -130,7 +130,7 @@ cloud_speed = -2
 
 TEST(Scene, MayBeFlat) {
   const Scene scene = Parse(
-      "[scene]\ndimensions = 2\n[[species]]\nstart = [[0, 1], [2, 3]]\n"
+      "[scene]\ndimensions = 2\n[[species]]\nstart = [[0, 1, 5], [2, 3, 7]]\n"
       "[[goal]]\nposition = [4, 5]\n");
   EXPECT_EQ(scene.box.low, (Vec3d{-20, -20, 0}));
   EXPECT_EQ(scene.box.high, (Vec3d{20, 20, 0}));

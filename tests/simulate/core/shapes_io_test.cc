@@ -53,6 +53,13 @@ TEST(Shapes, SurviveAFile) {
   EXPECT_EQ(Contents(folder / "again.csv"), Contents(folder / "shapes.csv"));
 }
 
+TEST(Shapes, HalfATurnIsNone) {
+  std::istringstream csv("frame,id,major,minor,angle,area\n1,1,4,2,180.00,9\n");
+  Tracks tracks = ThreeRows();
+  ReadShapes(csv, "shapes.csv", &tracks);
+  EXPECT_EQ(tracks.tracklets[0].detections[0].shape->angle_deg, 0);
+}
+
 TEST(Shapes, NoneIsNoFault) {
   const TemporaryFolder folder;
   WriteShapes(folder / "shapes.csv", ThreeRows());
@@ -74,7 +81,7 @@ TEST(Shapes, FaultsAreTold) {
       {header + "1,1,2,4,0,9\n", 2, "axes are 2 and 4"},
       {header + "1,1,0,0,0,9\n", 2, "axes are 0 and 0"},
       {header + "1,1,4,-2,0,9\n", 2, "axes are 4 and -2"},
-      {header + "1,1,4,2,180,9\n", 2, "angle is 180"},
+      {header + "1,1,4,2,180.1,9\n", 2, "angle is 180.1"},
       {header + "1,1,4,2,-1,9\n", 2, "angle is -1"},
       {header + "1,1,4,2,0,0\n", 2, "area is 0"},
       {header + "1,1,4,2,0,nan\n", 2, "area is `nan`"},
