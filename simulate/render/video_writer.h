@@ -18,8 +18,8 @@
 namespace flocklift {
 
 struct VideoOptions {
-  int crf = 18;                     // H.264 constant rate factor; smaller is better and larger
-  std::string preset = "veryfast";  // of x264: ultrafast ... veryslow
+  int crf = 18;                      // H.264 constant rate factor; smaller is better and larger
+  std::string preset = "ultrafast";  // of x264, up to veryslow; noisy film gains little from more
   int threads = 2;  // of the encoder. The bytes depend on it: leave it alone where they matter
   std::string encoder = {};  // libavcodec's name; empty: libx264, or mpeg4 where that is missing
 };

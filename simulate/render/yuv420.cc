@@ -9,11 +9,20 @@
 namespace flocklift {
 namespace {
 
-// Coefficients in units of 2^-16 (2^-18 for chroma, whose inputs are sums of four pixels).
-std::uint8_t Luma(std::int32_t b, std::int32_t g, std::int32_t r) {
-  return static_cast<std::uint8_t>((6416 * b + 33039 * g + 16829 * r + (16 << 16) + (1 << 15)) >>
-                                   16);
+// The upper half of a product of 16 bits: one SIMD instruction.
+std::uint16_t High(std::uint16_t a, std::uint16_t b) {
+  return static_cast<std::uint16_t>((static_cast<std::uint32_t>(a) * b) >> 16);
 }
+
+// In units of 2^-8; the coefficients in units of 2^-16, half a unit for what the products lose.
+std::uint8_t Luma(std::uint8_t b, std::uint8_t g, std::uint8_t r) {
+  const auto scaled = [](std::uint8_t x) { return static_cast<std::uint16_t>(x << 8); };
+  const auto sum = static_cast<std::uint16_t>(High(scaled(b), 6416) + High(scaled(g), 33039) +
+                                              High(scaled(r), 16829) + (16 << 8) + 128 + 1);
+  return static_cast<std::uint8_t>(sum >> 8);
+}
+
+// Of sums of four pixels, in units of 2^-18.
 std::uint8_t BlueDifference(std::int32_t b4, std::int32_t g4, std::int32_t r4) {
   return static_cast<std::uint8_t>(
       (28784 * b4 - 19070 * g4 - 9714 * r4 + (128 << 18) + (1 << 17)) >> 18);

@@ -1,0 +1,264 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/render/silhouette.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "simulate/core/check.h"
+
+namespace flocklift {
+namespace {
+
+// A side of a polygon that is not horizontal: x = x_top + slope (y - top).
+struct Edge {
+  double top, bottom, x_top, slope;
+
+  double At(double y) const { return x_top + slope * (y - top); }
+};
+
+// A polygon: its edges [first, last) and its bounds.
+struct Piece {
+  std::size_t first, last;
+  double left, right, top, bottom;
+
+  bool MayMeet(const Piece& other) const {
+    return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
+  }
+};
+
+struct Outline {
+  std::vector<Edge> edges;
+  std::vector<Piece> pieces;
+};
+
+struct Interval {
+  double left, right;  // in the middle of the strip
+  std::size_t left_edge, right_edge;
+};
+
+Outline OutlineOf(std::span<const ConvexPolygon> polygons) {
+  Outline outline;
+  outline.edges.reserve(polygons.size() * 6);
+  outline.pieces.reserve(polygons.size());
+  for (const ConvexPolygon& polygon : polygons) {
+    if (polygon.corners == 0) continue;
+    const Vec2d start = polygon.corner[0];
+    Piece piece{outline.edges.size(), 0, start.x, start.x, start.y, start.y};
+    for (int k = 0; k < polygon.corners; ++k) {
+      Vec2d a = polygon.corner[static_cast<std::size_t>(k)];
+      Vec2d b = polygon.corner[static_cast<std::size_t>((k + 1) % polygon.corners)];
+      piece.left = std::min(piece.left, a.x);
+      piece.right = std::max(piece.right, a.x);
+      piece.top = std::min(piece.top, a.y);
+      piece.bottom = std::max(piece.bottom, a.y);
+      if (a.y == b.y) continue;
+      if (a.y > b.y) std::swap(a, b);
+      outline.edges.push_back({a.y, b.y, a.x, (b.x - a.x) / (b.y - a.y)});
+    }
+    piece.last = outline.edges.size();
+    outline.pieces.push_back(piece);
+  }
+  return outline;
+}
+
+void AddCrossings(const Outline& outline, const Piece& p, const Piece& q,
+                  std::vector<double>* bounds) {
+  for (std::size_t i = p.first; i < p.last; ++i) {
+    const Edge& a = outline.edges[i];
+    if (a.top >= q.bottom || a.bottom <= q.top) continue;
+    for (std::size_t j = q.first; j < q.last; ++j) {
+      const Edge& b = outline.edges[j];
+      const double top = std::max(a.top, b.top), bottom = std::min(a.bottom, b.bottom);
+      if (top >= bottom) continue;
+      const double gap_at_top = a.At(top) - b.At(top), gap_at_bottom = a.At(bottom) - b.At(bottom);
+      if ((gap_at_top < 0) == (gap_at_bottom < 0)) continue;
+      bounds->push_back(top + (bottom - top) * gap_at_top / (gap_at_top - gap_at_bottom));
+    }
+  }
+}
+
+// Heights at which the order of the edges along x, or their number, may change.
+std::vector<double> StripBounds(const Outline& outline) {
+  std::vector<double> bounds;
+  bounds.reserve(4 * outline.edges.size());
+  for (const Edge& edge : outline.edges) {
+    bounds.push_back(edge.top);
+    bounds.push_back(edge.bottom);
+  }
+  for (std::size_t p = 0; p < outline.pieces.size(); ++p) {
+    for (std::size_t q = p + 1; q < outline.pieces.size(); ++q) {
+      if (outline.pieces[p].MayMeet(outline.pieces[q])) {
+        AddCrossings(outline, outline.pieces[p], outline.pieces[q], &bounds);
+      }
+    }
+  }
+  std::sort(bounds.begin(), bounds.end());
+  return bounds;
+}
+
+// The interval of each polygon at height y, by increasing left end.
+void IntervalsAt(double y, const Outline& outline, std::vector<Interval>* intervals) {
+  intervals->clear();
+  for (const Piece& piece : outline.pieces) {
+    if (y < piece.top || y >= piece.bottom) continue;
+    int found = 0;
+    Interval interval{};
+    for (std::size_t e = piece.first; e < piece.last && found < 2; ++e) {
+      const Edge& edge = outline.edges[e];
+      if (y < edge.top || y >= edge.bottom) continue;
+      const double x = edge.At(y);
+      if (++found == 1) {
+        interval = {x, x, e, e};
+      } else if (x < interval.left) {
+        interval.left = x;
+        interval.left_edge = e;
+      } else {
+        interval.right = x;
+        interval.right_edge = e;
+      }
+    }
+    if (found == 2) intervals->push_back(interval);
+  }
+  // A handful: insertion is the fastest order.
+  for (std::size_t i = 1; i < intervals->size(); ++i) {
+    const Interval moved = (*intervals)[i];
+    std::size_t k = i;
+    for (; k > 0 && moved.left < (*intervals)[k - 1].left; --k) {
+      (*intervals)[k] = (*intervals)[k - 1];
+    }
+    (*intervals)[k] = moved;
+  }
+}
+
+}  // namespace
+
+void Silhouette::Shift(const Vec2d& offset) {
+  for (Trapezoid& t : trapezoids) {
+    t.top += offset.y;
+    t.bottom += offset.y;
+    t.left_at_top += offset.x;
+    t.left_at_bottom += offset.x;
+    t.right_at_top += offset.x;
+    t.right_at_bottom += offset.x;
+  }
+}
+
+ConvexPolygon HullOf(std::span<const Vec2d> points) {
+  FLOCKLIFT_DCHECK(points.size() <= ConvexPolygon::kMaxCorners);
+  std::array<Vec2d, ConvexPolygon::kMaxCorners> sorted;
+  const auto end = std::copy(points.begin(), points.end(), sorted.begin());
+  std::sort(sorted.begin(), end,
+            [](const Vec2d& a, const Vec2d& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  // Monotone chain (Andrew 1979): the lower side from left to right, then the upper side back.
+  const int n = static_cast<int>(points.size());
+  std::array<Vec2d, 2 * ConvexPolygon::kMaxCorners> hull;
+  int size = 0;
+  const auto add = [&](const Vec2d& p, int keep) {
+    const auto at = [&](int k) { return hull[static_cast<std::size_t>(k)]; };
+    while (size >= keep + 2) {
+      const Vec2d a = at(size - 2), b = at(size - 1);
+      if ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0) break;
+      --size;
+    }
+    hull[static_cast<std::size_t>(size++)] = p;
+  };
+  for (int k = 0; k < n; ++k) add(sorted[static_cast<std::size_t>(k)], 0);
+  const int lower = size - 1;
+  for (int k = n - 2; k >= 0; --k) add(sorted[static_cast<std::size_t>(k)], lower);
+  ConvexPolygon polygon;
+  for (int k = 0; k < std::max(size - 1, std::min(n, 1)); ++k) {
+    polygon.Add(hull[static_cast<std::size_t>(k)]);
+  }
+  return polygon;
+}
+
+Silhouette UnionOf(std::span<const ConvexPolygon> polygons) {
+  const Outline outline = OutlineOf(polygons);
+  const std::vector<double> bounds = StripBounds(outline);
+  Silhouette silhouette;
+  silhouette.trapezoids.reserve(bounds.size());
+  std::vector<Interval> intervals;
+  for (std::size_t k = 1; k < bounds.size(); ++k) {
+    const double top = bounds[k - 1], bottom = bounds[k];
+    const double middle = 0.5 * (top + bottom);
+    if (!(top < middle && middle < bottom)) continue;
+    IntervalsAt(middle, outline, &intervals);
+    for (std::size_t i = 0; i < intervals.size();) {
+      Interval merged = intervals[i];
+      for (++i; i < intervals.size() && intervals[i].left <= merged.right; ++i) {
+        if (intervals[i].right <= merged.right) continue;
+        merged.right = intervals[i].right;
+        merged.right_edge = intervals[i].right_edge;
+      }
+      const Edge& left = outline.edges[merged.left_edge];
+      const Edge& right = outline.edges[merged.right_edge];
+      silhouette.trapezoids.push_back(
+          {top, bottom, left.At(top), left.At(bottom), right.At(top), right.At(bottom)});
+    }
+  }
+  return silhouette;
+}
+
+SilhouetteMoments MomentsOf(const Silhouette& silhouette) {
+  if (silhouette.trapezoids.empty()) return {};
+  // About a point nearby, so that no digits are lost far from the origin.
+  const Vec2d origin{silhouette.trapezoids.front().left_at_top, silhouette.trapezoids.front().top};
+  double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (const Trapezoid& t : silhouette.trapezoids) {
+    // All integrands are cubics of y at most: Simpson's rule is exact.
+    for (int node = 0; node < 3; ++node) {
+      const double share = 0.5 * node;
+      const double weight = (t.bottom - t.top) * (node == 1 ? 4.0 : 1.0) / 6.0;
+      const double height = t.top + share * (t.bottom - t.top) - origin.y;
+      const double left = t.left_at_top + share * (t.left_at_bottom - t.left_at_top) - origin.x;
+      const double right = t.right_at_top + share * (t.right_at_bottom - t.right_at_top) - origin.x;
+      const double length = right - left;
+      const double first = 0.5 * (right * right - left * left);
+      area += weight * length;
+      x += weight * first;
+      y += weight * height * length;
+      xx += weight * (right * right * right - left * left * left) / 3;
+      xy += weight * height * first;
+      yy += weight * height * height * length;
+    }
+  }
+  if (!(area > 0)) return {};
+  SilhouetteMoments m{.area = area, .centroid = {x / area, y / area}};
+  m.xx = std::max(0.0, xx / area - m.centroid.x * m.centroid.x);
+  m.xy = xy / area - m.centroid.x * m.centroid.y;
+  m.yy = std::max(0.0, yy / area - m.centroid.y * m.centroid.y);
+  m.centroid.x += origin.x;
+  m.centroid.y += origin.y;
+  return m;
+}
+
+Shape ShapeOf(const SilhouetteMoments& m) {
+  const double mean = 0.5 * (m.xx + m.yy);
+  const double half_gap = std::hypot(0.5 * (m.xx - m.yy), m.xy);
+  double angle_deg = 0.5 * std::atan2(2 * m.xy, m.xx - m.yy) * 180 / std::numbers::pi;
+  if (angle_deg < 0) angle_deg += 180;
+  if (angle_deg >= 180) angle_deg -= 180;
+  return {.major = 4 * std::sqrt(mean + half_gap),
+          .minor = 4 * std::sqrt(std::max(0.0, mean - half_gap)),
+          .angle_deg = angle_deg,
+          .area = m.area};
+}
+
+Box BoundsOf(const Silhouette& silhouette) {
+  if (silhouette.trapezoids.empty()) return {};
+  const Trapezoid& first = silhouette.trapezoids.front();
+  double left = first.left_at_top, right = first.right_at_top;
+  double top = first.top, bottom = first.bottom;
+  for (const Trapezoid& t : silhouette.trapezoids) {
+    left = std::min({left, t.left_at_top, t.left_at_bottom});
+    right = std::max({right, t.right_at_top, t.right_at_bottom});
+    top = std::min(top, t.top);
+    bottom = std::max(bottom, t.bottom);
+  }
+  return {left, top, right - left, bottom - top};
+}
+
+}  // namespace flocklift
