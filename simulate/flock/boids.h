@@ -101,17 +101,20 @@ struct BoidsPairs {
   typename Cohesion::Params<T, Taper> cohesion;
   typename Alignment::Params<T, Taper> alignment;
 
+  struct Shares {
+    Share<T> separation, cohesion, alignment;
+  };
   struct Sums {
     Weighted<T> separation, cohesion, alignment;
 
-    Sums& operator+=(const Sums& b) {
-      separation += b.separation;
-      cohesion += b.cohesion;
-      alignment += b.alignment;
+    Sums& operator+=(const Shares& shares) {
+      separation += shares.separation;
+      cohesion += shares.cohesion;
+      alignment += shares.alignment;
       return *this;
     }
   };
-  Sums Pair(const Vec3<T>& dx, const Vec3<T>& dv) const {
+  Shares Pair(const Vec3<T>& dx, const Vec3<T>& dv) const {
     return {Separation::Pair(separation, dx, dv), Cohesion::Pair(cohesion, dx, dv),
             Alignment::Pair(alignment, dx, dv)};
   }

@@ -277,7 +277,9 @@ struct BasicEngine<T>::Impl {
       const Flee::Params<T> p{static_cast<T>(predator.fear_weight),
                               static_cast<T>(predator.fear_radius),
                               static_cast<T>(kFearTaper * predator.fear_radius)};
-      sum += Flee::Finish(p, Flee::Pair(p, Cast<T>(predator.position) - x, Vec3<T>{}));
+      Weighted<T> push;
+      push += Flee::Pair(p, Cast<T>(predator.position) - x, Vec3<T>{});
+      sum += Flee::Finish(p, push);
     }
     return sum;
   }

@@ -14,10 +14,11 @@
 namespace flocklift {
 namespace {
 
-constexpr double kGravity = 9.81;      // [m/s^2]
-constexpr double kStartSpread = 0.2;   // of the headings [rad]
-constexpr double kPredatorSize = 1.5;  // against the first species
-constexpr double kMostSpread = 2.5;    // individuals beyond so many sd are drawn in
+constexpr double kGravity = 9.81;       // [m/s^2]
+constexpr double kLeastLift = 1.0 / 3;  // of the weight: no bird flies upside down
+constexpr double kStartSpread = 0.2;    // of the headings [rad]
+constexpr double kPredatorSize = 1.5;   // against the first species
+constexpr double kMostSpread = 2.5;     // individuals beyond so many sd are drawn in
 
 // Standard normal draws with mean exactly 0 (and none beyond kMostSpread, before centring).
 std::vector<double> CentredNormals(std::uint64_t seed, std::size_t first_agent, int count,
@@ -104,7 +105,7 @@ void AddSpecies(const Scene& scene, std::size_t species_index, Population* popul
 // world_from_body of a bird that flies along v and turns with acceleration a.
 Quaternion Bank(const Vec3d& v, const Vec3d& a) {
   const Vec3d forward = Normalized(v);
-  const Vec3d felt = a + Vec3d{0, 0, kGravity};
+  const Vec3d felt{a.x, a.y, std::max(a.z + kGravity, kLeastLift * kGravity)};
   const Vec3d up = Normalized(felt - Dot(felt, forward) * forward);
   if (forward == Vec3d{} || up == Vec3d{}) {
     return QuaternionFromRotation(WorldFromLevelBody(v));

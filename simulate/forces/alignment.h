@@ -22,9 +22,8 @@ struct Alignment {
   };
 
   template <typename T, typename Taper>
-  static Weighted<T> Pair(const Params<T, Taper>& p, const Vec3<T>& dx, const Vec3<T>& dv) {
-    const T w = TaperWindow(Dot(dx, dx), p.radius, p.taper);
-    return {w * dv, w};
+  static Share<T> Pair(const Params<T, Taper>& p, const Vec3<T>& dx, const Vec3<T>& dv) {
+    return {dv, TaperWindow(Dot(dx, dx), p.radius, p.taper)};
   }
 
   template <typename T, typename Taper>

@@ -22,10 +22,10 @@ struct Flee {
   };
 
   template <typename T>
-  static Weighted<T> Pair(const Params<T>& p, const Vec3<T>& dx, const Vec3<T>& /*dv*/) {
+  static Share<T> Pair(const Params<T>& p, const Vec3<T>& dx, const Vec3<T>& /*dv*/) {
     const T squared = Dot(dx, dx);
     const T w = TaperWindow(squared, p.radius, p.taper);
-    return {(-w / SoftLength(squared)) * dx, w};
+    return {(T(-1.0) / SoftLength(squared)) * dx, w};
   }
 
   template <typename T>

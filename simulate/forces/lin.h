@@ -27,12 +27,12 @@ struct LinSeparation {
   };
 
   template <typename T>
-  static Weighted<T> Pair(const Params<T>& p, const Vec3<T>& dx, const Vec3<T>& /*dv*/) {
+  static Share<T> Pair(const Params<T>& p, const Vec3<T>& dx, const Vec3<T>& /*dv*/) {
     using std::pow;
     const T squared = Dot(dx, dx);
     const T w = ClosedTaperWindow(squared, p.radius, p.taper);
     const T scale = pow(T(squared + T(kSoftening)), T(T(-0.5) * (T(1.0) + p.exponent)));
-    return {(-w * scale) * dx, w};
+    return {-scale * dx, w};
   }
 
   template <typename T>
@@ -47,7 +47,7 @@ struct LinCohesion {
   struct Params {};
 
   template <typename T>
-  static Weighted<T> Pair(const Params<T>& /*p*/, const Vec3<T>& dx, const Vec3<T>& /*dv*/) {
+  static Share<T> Pair(const Params<T>& /*p*/, const Vec3<T>& dx, const Vec3<T>& /*dv*/) {
     return {dx, T(1.0)};
   }
 

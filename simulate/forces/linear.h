@@ -20,7 +20,7 @@ struct LinearCohesion {
   };
 
   template <typename T>
-  static Weighted<T> Pair(const Params<T>& /*p*/, const Vec3<T>& dx, const Vec3<T>& /*dv*/) {
+  static Share<T> Pair(const Params<T>& /*p*/, const Vec3<T>& dx, const Vec3<T>& /*dv*/) {
     return {dx, T(1.0)};
   }
 
@@ -37,7 +37,7 @@ struct LinearAlignment {
   };
 
   template <typename T>
-  static Weighted<T> Pair(const Params<T>& /*p*/, const Vec3<T>& /*dx*/, const Vec3<T>& dv) {
+  static Share<T> Pair(const Params<T>& /*p*/, const Vec3<T>& /*dx*/, const Vec3<T>& dv) {
     return {dv, T(1.0)};
   }
 

@@ -5,8 +5,9 @@
 // (float, double, a SIMD pack, ceres::Jet). Two kinds:
 //
 // A pair term tells what neighbour j does to animal i, from dx = x_j - x_i and dv = v_j - v_i
-// (world frame). The contributions of all neighbours are summed, and Finish makes the acceleration:
-//   a_i = Finish(p, sum_j Pair(p, dx_ij, dv_ij))
+// (world frame): a vector u_ij and how much it counts, w_ij. Those of all neighbours are summed,
+// and Finish makes the acceleration:
+//   a_i = Finish(p, { sum_j w_ij u_ij, sum_j w_ij })
 // Which animals are neighbours is chosen outside and only has to include all within Reach(p); the
 // animal itself is none of them.
 //
@@ -21,12 +22,24 @@
 
 namespace flocklift {
 
-// One neighbour's share, or the sum over neighbours: a value and how much of a neighbour it is.
+// What one neighbour says, and how much it counts: 1 inside a window, less on its edge, 0 outside.
+template <typename T>
+struct Share {
+  Vec3<T> value;
+  T weight;
+};
+
+// The sum over neighbours.
 template <typename T>
 struct Weighted {
-  Vec3<T> value{T(0.0), T(0.0), T(0.0)};
+  Vec3<T> value{T(0.0), T(0.0), T(0.0)};  // of weight * value
   T weight{T(0.0)};
 
+  Weighted& operator+=(const Share<T>& share) {
+    value += share.weight * share.value;
+    weight += share.weight;
+    return *this;
+  }
   Weighted& operator+=(const Weighted& b) {
     value += b.value;
     weight += b.weight;
@@ -37,7 +50,7 @@ struct Weighted {
 template <typename Term, typename T>
 concept PairTerm = requires(const typename Term::template Params<T>& p, const Vec3<T>& v,
                             const Weighted<T>& sum) {
-  { Term::Pair(p, v, v) } -> std::same_as<Weighted<T>>;
+  { Term::Pair(p, v, v) } -> std::same_as<Share<T>>;
   { Term::Finish(p, sum) } -> std::same_as<Vec3<T>>;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Compiled with -mavx2; run only where the processor has it.
+// Compiled with -mavx2 -mfma; run only where the processor has both.
 
 #include <immintrin.h>
 
@@ -10,7 +10,7 @@
 
 #include "simulate/flock/kernels/arch.h"
 
-FLOCKLIFT_KERNEL_ARCH(Avx2, xsimd::avx2)
+FLOCKLIFT_KERNEL_ARCH(Avx2, xsimd::fma3<xsimd::avx2>)
 
 namespace flocklift {
 namespace {

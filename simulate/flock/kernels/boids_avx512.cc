@@ -12,7 +12,7 @@
 
 #include "simulate/flock/kernels/arch.h"
 
-FLOCKLIFT_KERNEL_ARCH(Avx512Vl, xsimd::avx2)
+FLOCKLIFT_KERNEL_ARCH(Avx512Vl, xsimd::fma3<xsimd::avx2>)
 
 namespace flocklift {
 namespace {

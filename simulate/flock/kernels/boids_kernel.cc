@@ -7,8 +7,12 @@ namespace flocklift {
 
 const BoidsKernelVariant kBoidsKernels[kBoidsKernelVariants] = {
     {"sse2", [] { return true; }, BoidsKernelSse2},
-    {"avx2", [] { return __builtin_cpu_supports("avx2") != 0; }, BoidsKernelAvx2},
-    {"avx512", [] { return __builtin_cpu_supports("avx512vl") != 0; }, BoidsKernelAvx512},
+    {"avx2",
+     [] { return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0; },
+     BoidsKernelAvx2},
+    {"avx512",
+     [] { return __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("fma") != 0; },
+     BoidsKernelAvx512},
 };
 
 }  // namespace flocklift

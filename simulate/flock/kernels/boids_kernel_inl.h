@@ -97,10 +97,34 @@ void Store(const Pack& pack, std::uint32_t first, std::uint32_t last, float* to)
   for (std::uint32_t k = first; k < last; ++k) to[k] = lanes[k - first];
 }
 
+// The sum over neighbours with one more. Weights of hard windows are 0 or 1, the product is exact,
+// and a fused operation rounds as the two do.
+template <typename Pack>
+[[gnu::always_inline]] inline void Add(const Share<Pack>& share, HardEdge /*taper*/,
+                                       Weighted<Pack>* sum) {
+  sum->value.x = xsimd::fma(share.weight, share.value.x, sum->value.x);
+  sum->value.y = xsimd::fma(share.weight, share.value.y, sum->value.y);
+  sum->value.z = xsimd::fma(share.weight, share.value.z, sum->value.z);
+  sum->weight += share.weight;
+}
+template <typename Pack>
+[[gnu::always_inline]] inline void Add(const Share<Pack>& share, const Pack& /*taper*/,
+                                       Weighted<Pack>* sum) {
+  *sum += share;
+}
+template <typename Pairs, typename Taper>
+[[gnu::always_inline]] inline void AddAll(const typename Pairs::Shares& shares, const Taper& taper,
+                                          typename Pairs::Sums* sums) {
+  Add(shares.separation, taper, &sums->separation);
+  Add(shares.cohesion, taper, &sums->cohesion);
+  Add(shares.alignment, taper, &sums->alignment);
+}
+
 template <typename Pack, typename Taper>
 void Tile(const BoidsJob& job, const BoidsPairs<Pack, Taper>& pairs, std::uint32_t first,
           std::uint32_t last, const Candidates& candidates, std::uint32_t self) {
-  using Sums = typename BoidsPairs<Pack, Taper>::Sums;
+  using Pairs = BoidsPairs<Pack, Taper>;
+  const Taper taper = pairs.separation.taper;
   const Vec3<Pack> x{Pack::load_unaligned(job.x + first), Pack::load_unaligned(job.y + first),
                      Pack::load_unaligned(job.z + first)};
   const Vec3<Pack> v{Pack::load_unaligned(job.vx + first), Pack::load_unaligned(job.vy + first),
@@ -110,25 +134,23 @@ void Tile(const BoidsJob& job, const BoidsPairs<Pack, Taper>& pairs, std::uint32
     const Vec3<Pack> dv = Vec3<Pack>{Pack(job.vx[j]), Pack(job.vy[j]), Pack(job.vz[j])} - v;
     return pairs.Pair(dx, dv);
   };
-  Sums sums;
-  for (std::uint32_t q = 0; q < self; ++q) sums += pair(candidates.list[q]);
+  typename Pairs::Sums sums;
+  for (std::uint32_t q = 0; q < self; ++q) {
+    AddAll<Pairs>(pair(candidates.list[q]), taper, &sums);
+  }
   alignas(64) float lane_numbers[Pack::size];
   for (std::uint32_t k = 0; k < Pack::size; ++k) lane_numbers[k] = static_cast<float>(k);
-  const Pack lane = Pack::load_aligned(lane_numbers);
+  const Pack lane = Pack::load_aligned(lane_numbers), zero(0.0f);
   for (std::uint32_t q = 0; q < last - first; ++q) {  // everybody but oneself
     const auto other = lane != Pack(static_cast<float>(q));
-    const Sums share = pair(first + q);
-    const auto masked = [&other](const Weighted<Pack>& w) {
-      const Pack zero(0.0f);
-      return Weighted<Pack>{
-          {xsimd::select(other, w.value.x, zero), xsimd::select(other, w.value.y, zero),
-           xsimd::select(other, w.value.z, zero)},
-          xsimd::select(other, w.weight, zero)};
-    };
-    sums += Sums{masked(share.separation), masked(share.cohesion), masked(share.alignment)};
+    typename Pairs::Shares shares = pair(first + q);
+    shares.separation.weight = xsimd::select(other, shares.separation.weight, zero);
+    shares.cohesion.weight = xsimd::select(other, shares.cohesion.weight, zero);
+    shares.alignment.weight = xsimd::select(other, shares.alignment.weight, zero);
+    AddAll<Pairs>(shares, taper, &sums);
   }
   for (std::uint32_t q = self + (last - first); q < candidates.count; ++q) {
-    sums += pair(candidates.list[q]);
+    AddAll<Pairs>(pair(candidates.list[q]), taper, &sums);
   }
   const Vec3<Pack> acceleration = pairs.Finish(sums);
   Store(acceleration.x, first, last, job.ax);

@@ -51,8 +51,8 @@ TEST(Alignment, TwoAnimalsConverge) {
   Vec3d vi{1, 0, 0}, vj{0, 2, 1};
   const Vec3d momentum = vi + vj, dx{1, 0, 0};
   for (int step = 0; step < 200; ++step) {
-    const Vec3d ai = Alignment::Finish(p, Alignment::Pair(p, dx, vj - vi));
-    const Vec3d aj = Alignment::Finish(p, Alignment::Pair(p, -dx, vi - vj));
+    const Vec3d ai = One<Alignment>(p, dx, vj - vi);
+    const Vec3d aj = One<Alignment>(p, -dx, vi - vj);
     vi += 0.05 * ai;
     vj += 0.05 * aj;
   }

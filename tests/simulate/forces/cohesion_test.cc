@@ -48,8 +48,8 @@ TEST(Cohesion, Gradient) { ExpectGradientMatches(TwoNeighbours{}, kSoft); }
 TEST(Cohesion, PairPullsTogetherWithEqualForces) {
   const Cohesion::Params<double> p{0.5, 3, 1};
   const Vec3d dx{1, -1, 0.5}, none{};
-  const Vec3d on_i = Cohesion::Finish(p, Cohesion::Pair(p, dx, none));
-  EXPECT_EQ(on_i, -Cohesion::Finish(p, Cohesion::Pair(p, -dx, none)));
+  const Vec3d on_i = One<Cohesion>(p, dx, none);
+  EXPECT_EQ(on_i, -One<Cohesion>(p, -dx, none));
   EXPECT_GT(Dot(on_i, dx), 0);
 }
 
@@ -57,8 +57,7 @@ TEST(Cohesion, TurnsWithTheWorld) {
   const Cohesion::Params<double> p{0.5, 3, 1};
   const Rotation3d turn = RotationFromQuaternion({0.5, 0.5, -0.5, 0.5});
   const Vec3d dx{1, -1, 2.4}, none{};
-  ExpectNear(Cohesion::Finish(p, Cohesion::Pair(p, turn * dx, none)),
-             turn * Cohesion::Finish(p, Cohesion::Pair(p, dx, none)), 1e-12);
+  ExpectNear(One<Cohesion>(p, turn * dx, none), turn * One<Cohesion>(p, dx, none), 1e-12);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ struct TwoPredators {
   template <typename T>
   Vec3<T> operator()(const T* in) const {
     const Flee::Params<T> p{in[0], in[1], in[2]};
-    Weighted<T> sum = Flee::Pair(p, Vec3<T>{in[3], in[4], in[5]}, Vec3<T>{});
+    Weighted<T> sum;
+    sum += Flee::Pair(p, Vec3<T>{in[3], in[4], in[5]}, Vec3<T>{});
     sum += Flee::Pair(p, Vec3<T>{in[6], in[7], in[8]}, Vec3<T>{});
     return Flee::Finish(p, sum);
   }

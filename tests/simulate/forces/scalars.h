@@ -15,6 +15,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "simulate/core/vec3.h"
+#include "simulate/forces/term.h"
 
 namespace flocklift {
 
@@ -63,6 +64,14 @@ void ExpectScalarsAgree(const Functor& f, const std::array<double, kInputs>& in,
     SCOPED_TRACE("jet");
     ExpectNear(Evaluate<Jet>(f, in), expected, 1e-12 * (1 + Norm(expected)));
   }
+}
+
+// The acceleration that one neighbour causes.
+template <typename Term>
+Vec3d One(const typename Term::template Params<double>& p, const Vec3d& dx, const Vec3d& dv) {
+  Weighted<double> sum;
+  sum += Term::Pair(p, dx, dv);
+  return Term::Finish(p, sum);
 }
 
 }  // namespace flocklift

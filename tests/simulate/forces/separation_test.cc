@@ -58,8 +58,8 @@ TEST(Separation, HardEdgeIsTaperZero) {
 TEST(Separation, PairPushesApartWithEqualForces) {
   const Separation::Params<double> p{0.5, 3, 1};
   const Vec3d dx{1, -1, 0.5}, none{};
-  const Vec3d on_i = Separation::Finish(p, Separation::Pair(p, dx, none));
-  const Vec3d on_j = Separation::Finish(p, Separation::Pair(p, -dx, none));
+  const Vec3d on_i = One<Separation>(p, dx, none);
+  const Vec3d on_j = One<Separation>(p, -dx, none);
   EXPECT_EQ(on_i, -on_j);
   EXPECT_LT(Dot(on_i, dx), 0);
 }
@@ -68,8 +68,7 @@ TEST(Separation, TurnsWithTheWorld) {
   const Separation::Params<double> p{0.5, 3, 1};
   const Rotation3d turn = RotationFromQuaternion({0.5, 0.5, -0.5, 0.5});
   const Vec3d dx{1, -1, 2.4}, none{};
-  ExpectNear(Separation::Finish(p, Separation::Pair(p, turn * dx, none)),
-             turn * Separation::Finish(p, Separation::Pair(p, dx, none)), 1e-12);
+  ExpectNear(One<Separation>(p, turn * dx, none), turn * One<Separation>(p, dx, none), 1e-12);
 }
 
 }  // namespace
