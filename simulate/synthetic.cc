@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/synthetic.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "simulate/core/check.h"
+#include "simulate/core/parallel_for.h"
+#include "simulate/core/rng.h"
+#include "simulate/render/body.h"
+#include "simulate/render/flight.h"
+
+namespace flocklift {
+namespace {
+
+constexpr std::uint64_t kClutterStream = 0x636c7574746572;
+constexpr std::uint64_t kOrderStream = 0x6f72646572;
+
+struct Row {
+  Id id;
+  Detection detection;
+};
+
+std::optional<Row> Observe(const FlyingAnimal& animal, int frame, double time, const Camera& camera,
+                           const Rigid3d& cam_from_world) {
+  const auto body = ProjectBody(animal, time, camera, cam_from_world);
+  if (!body || !camera.Sees(body->center)) return std::nullopt;
+  const Box bounds = BoundsOf(body->silhouette);
+  const double half_width =
+      std::max(body->center.x - bounds.left, bounds.left + bounds.width - body->center.x);
+  const double half_height =
+      std::max(body->center.y - bounds.top, bounds.top + bounds.height - body->center.y);
+  Row row{.id = animal.animal.id, .detection = {}};
+  row.detection.frame = frame;
+  row.detection.box = Box::Around(body->center, 2 * half_width, 2 * half_height);
+  row.detection.shape = ShapeOf(MomentsOf(body->silhouette));
+  return row;
+}
+
+// Random numbers drawn in a fixed order, so that one kind of noise does not change another.
+std::optional<Detection> Disturb(const ObservationNoise& noise, std::uint64_t seed, Id id,
+                                 const Detection& truth) {
+  Rng rng(seed, static_cast<std::uint64_t>(id), static_cast<std::uint32_t>(truth.frame));
+  const bool missed = rng.Uniform() < noise.miss;
+  const double du = noise.position_sd * rng.Normal(), dv = noise.position_sd * rng.Normal();
+  const double scale = std::exp(noise.size_sd * rng.Normal());
+  if (missed) return std::nullopt;
+  Detection seen = truth;
+  const Vec2d center = truth.box.Center();
+  seen.box = Box::Around({center.x + du, center.y + dv}, scale * truth.box.width,
+                         scale * truth.box.height);
+  if (seen.shape) {
+    seen.shape->major *= scale;
+    seen.shape->minor *= scale;
+    seen.shape->area *= scale * scale;
+  }
+  return seen;
+}
+
+// Poisson numbers by adding exponential waiting times.
+int Poisson(double mean, Rng* rng) {
+  int count = 0;
+  for (double time = -std::log(rng->Uniform()); time < mean; time -= std::log(rng->Uniform())) {
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+Tracks SynthesizeTracks(const Trajectories& trajectories, std::span<const Animal> animals,
+                        const Camera& camera, double fps, int threads) {
+  const Flight flight(trajectories, animals, camera, fps);
+  const FrameSpan span = flight.span();
+  const std::int64_t frames = std::max(0, span.last - span.first + 1);
+  std::vector<std::vector<Row>> rows(static_cast<std::size_t>(frames));
+  ParallelFor(threads, 0, frames, 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t k = first; k < last; ++k) {
+      const int frame = span.first + static_cast<int>(k);
+      const Rigid3d cam_from_world = camera.CamFromWorld(frame);
+      for (const FlyingAnimal& animal : flight.At(frame)) {
+        auto row = Observe(animal, frame, flight.TimeOf(frame), camera, cam_from_world);
+        if (row) rows[static_cast<std::size_t>(k)].push_back(*std::move(row));
+      }
+    }
+  });
+  std::map<Id, Tracklet> by_id;
+  for (std::vector<Row>& frame : rows) {
+    for (Row& row : frame) {
+      Tracklet& tracklet = by_id[row.id];
+      tracklet.id = row.id;
+      tracklet.detections.push_back(std::move(row.detection));
+    }
+  }
+  Tracks tracks{.fps = fps, .tracklets = {}};
+  for (auto& [id, tracklet] : by_id) tracks.tracklets.push_back(std::move(tracklet));
+  return tracks;
+}
+
+Tracks SynthesizeNoise(const ObservationNoise& noise, std::uint64_t seed, const Tracks& tracks) {
+  CheckOptions(noise);
+  Tracks noisy{.fps = tracks.fps, .tracklets = {}};
+  for (const Tracklet& truth : tracks.tracklets) {
+    Tracklet tracklet{.id = truth.id, .detections = {}};
+    for (const Detection& detection : truth.detections) {
+      auto seen = Disturb(noise, seed, truth.id, detection);
+      if (seen) tracklet.detections.push_back(*seen);
+    }
+    if (!tracklet.detections.empty()) noisy.tracklets.push_back(std::move(tracklet));
+  }
+  return noisy;
+}
+
+std::vector<DetectionFrame> SynthesizeDetections(const ObservationNoise& noise, std::uint64_t seed,
+                                                 const Camera& camera, const Tracks& tracks) {
+  Check(camera.width > 0 && camera.height > 0, "a camera without a size has no room for clutter");
+  const FrameSpan span = SpanOf(tracks);
+  std::vector<DetectionFrame> frames;
+  for (int frame = span.first; frame <= span.last; ++frame) {
+    frames.push_back({.frame = frame, .detections = {}});
+  }
+  std::vector<Box> sizes;
+  for (const Tracklet& tracklet : SynthesizeNoise(noise, seed, tracks).tracklets) {
+    for (const Detection& detection : tracklet.detections) {
+      frames[static_cast<std::size_t>(detection.frame - span.first)].detections.push_back(
+          detection);
+      sizes.push_back(detection.box);
+    }
+  }
+  for (DetectionFrame& frame : frames) {
+    auto& detections = frame.detections;
+    Rng clutter(seed, kClutterStream, static_cast<std::uint32_t>(frame.frame));
+    const int count = sizes.empty() ? 0 : Poisson(noise.clutter, &clutter);
+    for (int k = 0; k < count; ++k) {
+      const Box& size = sizes[clutter.Below(static_cast<std::uint32_t>(sizes.size()))];
+      const Vec2d center{clutter.Uniform(-0.5, camera.width - 0.5),
+                         clutter.Uniform(-0.5, camera.height - 0.5)};
+      detections.push_back({.frame = frame.frame,
+                            .box = Box::Around(center, size.width, size.height),
+                            .confidence = clutter.Uniform(kMeasuredConfidence, 0.9),
+                            .shape = std::nullopt});
+    }
+    Rng order(seed, kOrderStream, static_cast<std::uint32_t>(frame.frame));
+    for (std::size_t k = detections.size(); k > 1; --k) {
+      std::swap(detections[k - 1], detections[order.Below(static_cast<std::uint32_t>(k))]);
+    }
+  }
+  return frames;
+}
+
+}  // namespace flocklift
