@@ -118,8 +118,7 @@ void FlockTracker::KeepSeenApart(std::vector<int>* inside) const {
     const Animal& x = animals_[i];
     const bool apart = std::all_of(kept.begin(), kept.end(), [&](int k) {
       const Animal& y = animals_[k];
-      return std::max(x.record.sightings.front().frame, y.record.sightings.front().frame) <=
-             std::min(x.last_alone, y.last_alone);
+      return std::max(x.first_alone, y.first_alone) <= std::min(x.last_alone, y.last_alone);
     });
     if (apart) kept.push_back(i);
   }
@@ -203,6 +202,11 @@ std::vector<int> FlockTracker::AssignAll(const BlobFrame& blobs,
   return Assign(static_cast<int>(observations.size()), candidates, alone);
 }
 
+void FlockTracker::NoteAlone(int frame, Animal* animal) {
+  if (animal->last_alone < 0) animal->first_alone = frame;
+  animal->last_alone = frame;
+}
+
 void FlockTracker::Sight(const BlobFrame& blobs, const Observation& o, Animal* animal) {
   const Blob& blob = blobs.blobs[o.blob];
   TrackRecord& record = animal->record;
@@ -225,7 +229,7 @@ void FlockTracker::Sight(const BlobFrame& blobs, const Observation& o, Animal* a
     sighting.height = before.height;
     sighting.shape = before.shape;
   } else {
-    animal->last_alone = blobs.frame;
+    if (blob.whole) NoteAlone(blobs.frame, animal);
     const double w = std::max(kMemory, 1.0 / animal->hits);
     record.mass *= std::pow(blob.mass / record.mass, w);
     record.size *= std::pow(SizeOf(blob) / record.size, w);
@@ -296,7 +300,7 @@ void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observa
     animal.motion =
         MotionFilter({blob.center, {0, 0}, variance, 0, noise_.speed_sd * noise_.speed_sd});
     animal.hits = 1;
-    animal.last_alone = blobs.frame;
+    if (blob.whole) NoteAlone(blobs.frame, &animal);
     animal.confirmed = options_.confirm_hits <= 1;
     animal.record.sightings.push_back(
         {.frame = blobs.frame,

@@ -78,7 +78,7 @@ class FlockTracker {
     Moments moments;
     TrackRecord record;
     int hits = 0, missed = 0, age = 0;
-    int last_alone = 0;  // frame in which it last had a blob of its own
+    int first_alone = 0, last_alone = -1;  // frames in which it had a whole blob of its own
     bool confirmed = false;
   };
   // A blob, or one animal's share of a blob.
@@ -96,6 +96,7 @@ class FlockTracker {
   std::vector<int> AssignAll(const BlobFrame& blobs, const std::vector<Observation>& observations);
   void UpdateAll(const BlobFrame& blobs, const std::vector<Observation>& observations,
                  const std::vector<int>& taken);
+  static void NoteAlone(int frame, Animal* animal);
   void Sight(const BlobFrame& blobs, const Observation& observation, Animal* animal);
   void EndAndBegin(const BlobFrame& blobs, const std::vector<Observation>& observations,
                    const std::vector<int>& taken);

@@ -15,25 +15,26 @@ namespace flocklift {
 namespace {
 
 constexpr int kPasses = 3;
+constexpr double kGridRows = 120;
 constexpr double kMaskSds = 3;
 
-// Quantile of |values| by a histogram of 1/8 grey level.
+// Quantile of |values| by a histogram of 1/4 grey level.
 class AbsoluteHistogram {
  public:
   void Add(float value) {
-    ++counts_[static_cast<std::size_t>(std::min(std::abs(value) * 8.0f, kBins - 1.0f))];
+    ++counts_[static_cast<std::size_t>(std::min(std::abs(value) * kPerLevel, kBins - 1.0f))];
     ++total_;
   }
-  long total() const { return total_; }
+  int total() const { return total_; }
   double Median() const {
-    long below = 0;
+    int below = 0;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
-      if (2 * (below + counts_[bin]) >= total_) {
+      if (2L * (below + counts_[bin]) >= total_) {
         const double share =
             counts_[bin] == 0 ? 0.5
                               : (0.5 * static_cast<double>(total_) - static_cast<double>(below)) /
                                     static_cast<double>(counts_[bin]);
-        return (static_cast<double>(bin) + share) / 8;
+        return (static_cast<double>(bin) + share) / kPerLevel;
       }
       below += counts_[bin];
     }
@@ -41,46 +42,107 @@ class AbsoluteHistogram {
   }
 
  private:
-  static constexpr std::size_t kBins = 2048;
-  std::array<long, kBins> counts_{};
-  long total_ = 0;
+  static constexpr std::size_t kBins = 256;
+  static constexpr float kPerLevel = 4;  // larger values share the last bin
+  std::array<int, kBins> counts_{};
+  int total_ = 0;
 };
 
 constexpr double kSdOfMedianAbsolute = 1.4826;  // of a normal distribution
 
-double RobustSd(const cv::Mat& residual) {
-  AbsoluteHistogram histogram;
-  for (int v = 0; v < residual.rows; ++v) {
-    const float* row = residual.ptr<float>(v);
-    for (int u = 0; u < residual.cols; ++u) histogram.Add(row[u]);
+// A field of small whole numbers on the grid, so that sums are exact.
+using Grid = std::vector<int>;
+
+// Means over cells of factor x factor pixels; those at the right and the bottom may be smaller.
+Grid CellMeans(const GrayImage& image, int factor, int width, int height) {
+  Grid means(static_cast<std::size_t>(width) * height);
+  std::vector<std::uint16_t> column(static_cast<std::size_t>(image.width));
+  for (int j = 0; j < height; ++j) {
+    std::fill(column.begin(), column.end(), std::uint16_t{0});
+    const int top = j * factor, bottom = std::min(top + factor, image.height);
+    for (int v = top; v < bottom; ++v) {
+      const std::uint8_t* row = image.Row(v);
+      for (int u = 0; u < image.width; ++u)
+        column[u] = static_cast<std::uint16_t>(column[u] + row[u]);
+    }
+    for (int i = 0; i < width; ++i) {
+      const int left = i * factor, right = std::min(left + factor, image.width);
+      int sum = 0;
+      for (int u = left; u < right; ++u) sum += column[u];
+      const int count = (right - left) * (bottom - top);
+      means[static_cast<std::size_t>(j) * width + i] = (sum + count / 2) / count;
+    }
   }
-  return kSdOfMedianAbsolute * histogram.Median();
+  return means;
 }
 
-void LocalMean(const cv::Mat& in, int side, cv::Mat* out) {
-  cv::boxFilter(in, *out, CV_32F, cv::Size(side, side), cv::Point(-1, -1), true,
-                cv::BORDER_REFLECT_101);
-}
+// Sums over a square of radius r, cut off at the border, of `values` and of `weights` (0 or 1).
+class BoxSums {
+ public:
+  BoxSums(int width, int height) : width_(width), height_(height) {}
 
-// Mean of `image` where mask is 1, over `side`; where little is left, over a window 4 times as
-// wide.
-cv::Mat MaskedMean(const cv::Mat& image, const cv::Mat& mask, int side) {
-  cv::Mat product, near_sum, near_weight, far_sum, far_weight;
-  cv::multiply(image, mask, product);
-  LocalMean(product, side, &near_sum);
-  LocalMean(mask, side, &near_weight);
-  const int wide = std::min(4 * side, 2 * (std::min(image.cols, image.rows) / 2) - 1) | 1;
-  LocalMean(product, wide, &far_sum);
-  LocalMean(mask, wide, &far_weight);
-  cv::Mat mean = (near_sum + 0.02 * far_sum) / (near_weight + 0.02 * far_weight + 1e-6);
-  return mean;
+  void Compute(const Grid& values, const Grid& weights, int radius, Grid* value_sums,
+               Grid* weight_sums) {
+    const std::size_t w = static_cast<std::size_t>(width_);
+    value_column_.assign(w, 0);
+    weight_column_.assign(w, 0);
+    value_sums->resize(w * height_);
+    weight_sums->resize(w * height_);
+    for (int v = -radius; v < height_; ++v) {
+      if (v + radius < height_) AddRow(values, weights, v + radius, 1);
+      if (v - radius - 1 >= 0) AddRow(values, weights, v - radius - 1, -1);
+      if (v < 0) continue;
+      SlideAlong(value_column_, radius, value_sums->data() + v * w);
+      SlideAlong(weight_column_, radius, weight_sums->data() + v * w);
+    }
+  }
+
+ private:
+  void AddRow(const Grid& values, const Grid& weights, int v, int sign) {
+    const int* value = values.data() + static_cast<std::size_t>(v) * width_;
+    const int* weight = weights.data() + static_cast<std::size_t>(v) * width_;
+    for (int u = 0; u < width_; ++u) {
+      value_column_[u] += sign * value[u] * weight[u];
+      weight_column_[u] += sign * weight[u];
+    }
+  }
+
+  void SlideAlong(const Grid& column, int radius, int* out) const {
+    int sum = 0;
+    for (int u = 0; u < std::min(radius, width_); ++u) sum += column[u];
+    for (int u = 0; u < width_; ++u) {
+      if (u + radius < width_) sum += column[u + radius];
+      out[u] = sum;
+      if (u - radius >= 0) sum -= column[u - radius];
+    }
+  }
+
+  int width_, height_;
+  Grid value_column_, weight_column_;
+};
+
+// Marks the nodes that stand out by more than `limit`, and their neighbours, with weight 0.
+void MaskOutliers(const Grid& values, const std::vector<float>& level, float limit, int width,
+                  int height, Grid* weights) {
+  std::fill(weights->begin(), weights->end(), 1);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const std::size_t k = static_cast<std::size_t>(v) * width + u;
+      if (std::abs(static_cast<float>(values[k]) - level[k]) <= limit) continue;
+      for (int y = std::max(v - 1, 0); y <= std::min(v + 1, height - 1); ++y) {
+        for (int x = std::max(u - 1, 0); x <= std::min(u + 1, width - 1); ++x) {
+          (*weights)[static_cast<std::size_t>(y) * width + x] = 0;
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
 
 double LocalBackground::Interpolate(const std::vector<float>& field, double x, double y) const {
-  const double gx = std::clamp((x + 0.5) / step_x - 0.5, 0.0, width - 1.0);
-  const double gy = std::clamp((y + 0.5) / step_y - 0.5, 0.0, height - 1.0);
+  const double gx = std::clamp((x + 0.5) / step - 0.5, 0.0, width - 1.0);
+  const double gy = std::clamp((y + 0.5) / step - 0.5, 0.0, height - 1.0);
   const int i = std::min(static_cast<int>(gx), std::max(width - 2, 0));
   const int j = std::min(static_cast<int>(gy), std::max(height - 2, 0));
   const double fx = gx - i, fy = gy - j;
@@ -93,51 +155,52 @@ double LocalBackground::Interpolate(const std::vector<float>& field, double x, d
 
 LocalBackground EstimateBackground(const GrayImage& image, double window, double least_noise) {
   FLOCKLIFT_DCHECK(image.width > 0 && image.height > 0);
-  const cv::Mat full(image.height, image.width, CV_8UC1,
-                     const_cast<std::uint8_t*>(image.pixels.data()));
-  const int factor = std::max(1, static_cast<int>(std::lround(image.height / 180.0)));
+  const int factor = std::max(1, static_cast<int>(std::lround(image.height / kGridRows)));
 
   LocalBackground background;
-  background.width = std::max(1, image.width / factor);
-  background.height = std::max(1, image.height / factor);
-  background.step_x = static_cast<double>(image.width) / background.width;
-  background.step_y = static_cast<double>(image.height) / background.height;
-
-  cv::Mat small, coarse;
-  cv::resize(full, small, cv::Size(background.width, background.height), 0, 0, cv::INTER_AREA);
-  small.convertTo(coarse, CV_32F);
-  const int side = std::min(std::max(3, static_cast<int>(std::lround(window / factor))),
-                            2 * (std::min(coarse.cols, coarse.rows) / 2) - 1) |
-                   1;
-
-  cv::Mat level;
-  if (std::min(coarse.cols, coarse.rows) < 3) {
-    level = cv::Mat(coarse.size(), CV_32F, cv::mean(coarse));
-  } else {
-    cv::Mat mask;
-    LocalMean(coarse, side, &level);
-    for (int pass = 0; pass < kPasses; ++pass) {
-      const cv::Mat residual = coarse - level;
-      const double limit = std::max(kMaskSds * RobustSd(residual), least_noise);
-      cv::Mat far = cv::abs(residual) > limit;
-      cv::dilate(far, far, cv::Mat());
-      far.convertTo(mask, CV_32F, -1.0 / 255, 1.0);
-      level = MaskedMean(coarse, mask, side);
+  const int width = background.width = (image.width + factor - 1) / factor;
+  const int height = background.height = (image.height + factor - 1) / factor;
+  background.step = factor;
+  const Grid values = CellMeans(image, factor, width, height);
+  Grid weights(values.size(), 1), near_value, near_weight, wide_value, wide_weight;
+  const int radius = std::max(1, static_cast<int>(std::lround(0.5 * window / factor)));
+  BoxSums sums(width, height);
+  std::vector<float>& level = background.level;
+  level.resize(values.size());
+  for (int pass = 0; pass < kPasses; ++pass) {
+    if (pass > 0) {
+      AbsoluteHistogram residuals;
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        residuals.Add(static_cast<float>(values[k]) - level[k]);
+      }
+      const double sd = kSdOfMedianAbsolute * residuals.Median();
+      MaskOutliers(values, level, static_cast<float>(std::max(kMaskSds * sd, least_noise)), width,
+                   height, &weights);
+    }
+    sums.Compute(values, weights, radius, &near_value, &near_weight);
+    sums.Compute(values, weights, 4 * radius, &wide_value, &wide_weight);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      // The wide window counts where the near one is nearly empty.
+      const float wide = wide_weight[k] > 0 ? 1.0f / static_cast<float>(wide_weight[k]) : 0.0f;
+      const float value =
+          static_cast<float>(near_value[k]) + static_cast<float>(wide_value[k]) * wide;
+      const float weight =
+          static_cast<float>(near_weight[k]) + static_cast<float>(wide_weight[k]) * wide;
+      level[k] = weight > 0 ? value / weight : static_cast<float>(values[k]);
     }
   }
-  background.level.assign(level.ptr<float>(0), level.ptr<float>(0) + level.total());
 
-  // Noise by tile of about 8 x 6, from one pixel in nine.
+  // Noise by tile of about 8 x 6, from one pixel in sixteen.
   const int tiles_x = std::max(1, std::min(8, image.width / 32));
   const int tiles_y = std::max(1, std::min(6, image.height / 32));
   std::vector<AbsoluteHistogram> histograms(static_cast<std::size_t>(tiles_x) * tiles_y);
-  for (int v = 1; v < image.height; v += 3) {
+  for (int v = 1; v < image.height; v += 4) {
     const std::uint8_t* row = image.Row(v);
     const int tile_y = v * tiles_y / image.height;
-    const int j = std::min(static_cast<int>(v / background.step_y), background.height - 1);
-    const float* levels = level.ptr<float>(j);
-    for (int u = 1; u < image.width; u += 3) {
-      const int i = std::min(static_cast<int>(u / background.step_x), background.width - 1);
+    const int j = v / factor;
+    const float* levels = level.data() + static_cast<std::size_t>(j) * background.width;
+    for (int u = 1; u < image.width; u += 4) {
+      const int i = u / factor;
       histograms[static_cast<std::size_t>(tile_y) * tiles_x + u * tiles_x / image.width].Add(
           static_cast<float>(row[u]) - levels[i]);
     }
@@ -151,7 +214,7 @@ LocalBackground EstimateBackground(const GrayImage& image, double window, double
     }
   }
   cv::Mat noise;
-  cv::resize(tiles, noise, coarse.size(), 0, 0, cv::INTER_LINEAR);
+  cv::resize(tiles, noise, cv::Size(width, height), 0, 0, cv::INTER_LINEAR);
   background.noise.assign(noise.ptr<float>(0), noise.ptr<float>(0) + noise.total());
   return background;
 }

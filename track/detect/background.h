@@ -17,10 +17,10 @@
 namespace flocklift {
 
 // Two fields on a grid of width x height nodes that covers the image; node (i, j) stands at pixel
-// ((i + 0.5) step_x - 0.5, (j + 0.5) step_y - 0.5).
+// ((i + 0.5) step - 0.5, (j + 0.5) step - 0.5).
 struct LocalBackground {
   int width = 0, height = 0;
-  double step_x = 1, step_y = 1;
+  int step = 1;              // [px]
   std::vector<float> level;  // [grey levels]
   std::vector<float> noise;  // sd of a pixel about the level [grey levels]
 

@@ -28,12 +28,13 @@ struct BlobPixel {
 };
 
 struct Blob {
-  Vec2d center;     // contrast-weighted [px]
-  Moments moments;  // contrast-weighted, of the pixels as squares (1/12 included)
-  double mass = 0;  // sum of the contrast [grey levels px^2]
-  double peak = 0;  // largest contrast, lightly smoothed [grey levels]
-  double snr = 0;   // peak over the local noise
-  Box box;          // of the pixels
+  Vec2d center;       // contrast-weighted [px]
+  Moments moments;    // contrast-weighted, of the pixels as squares (1/12 included)
+  double mass = 0;    // sum of the contrast [grey levels px^2]
+  double peak = 0;    // largest contrast, lightly smoothed [grey levels]
+  double snr = 0;     // peak over the local noise
+  Box box;            // of the pixels
+  bool whole = true;  // neither cut at a saddle nor at the edge of the picture
   std::uint32_t first_pixel = 0, pixel_count = 0;  // in BlobFrame::pixels; none: not known
 };
 

@@ -29,21 +29,27 @@ cv::Mat View(const GrayImage& image) {
                  const_cast<std::uint8_t*>(image.pixels.data()));
 }
 
-// 255 where the image passes the threshold, 0 elsewhere.
-GrayImage MaskOf(const GrayImage& image, const LocalBackground& background, bool dark,
-                 const std::vector<float>& threshold) {
+void Fit(int width, int height, GrayImage* image) {
+  if (image->width != width || image->height != height) *image = GrayImage(width, height);
+}
+
+// mask = 255 where the image passes the threshold, 0 elsewhere; `limit` is scratch.
+void MarkContrast(const GrayImage& image, const LocalBackground& background, bool dark,
+                  const std::vector<float>& threshold, GrayImage* limit, GrayImage* mask) {
   cv::Mat coarse(background.height, background.width, CV_8UC1);
   for (std::size_t k = 0; k < threshold.size(); ++k) {
-    const float limit = dark ? std::ceil(background.level[k] - threshold[k])
+    const float value = dark ? std::ceil(background.level[k] - threshold[k])
                              : std::floor(background.level[k] + threshold[k]);
-    coarse.data[k] = static_cast<std::uint8_t>(std::clamp(limit, 0.0f, 255.0f));
+    coarse.data[k] = static_cast<std::uint8_t>(std::clamp(value, 0.0f, 255.0f));
   }
-  cv::Mat limit;
-  cv::resize(coarse, limit, cv::Size(image.width, image.height), 0, 0, cv::INTER_LINEAR);
-  GrayImage mask(image.width, image.height);
-  cv::Mat out = View(mask);
-  cv::compare(View(image), limit, out, dark ? cv::CMP_LT : cv::CMP_GT);
-  return mask;
+  const int width = background.width * background.step;  // reaches beyond the image
+  const int height = background.height * background.step;
+  Fit(width, height, limit);
+  Fit(image.width, image.height, mask);
+  cv::Mat limit_view = View(*limit), mask_view = View(*mask);
+  cv::resize(coarse, limit_view, limit_view.size(), 0, 0, cv::INTER_LINEAR);
+  cv::compare(View(image), limit_view(cv::Rect(0, 0, image.width, image.height)), mask_view,
+              dark ? cv::CMP_LT : cv::CMP_GT);
 }
 
 // Sums over the pixels of one blob, which stand at the end of `found->pixels` from `first` on.
@@ -138,8 +144,9 @@ BlobFrame Detector::Detect(int frame, const GrayImage& image) {
 }
 
 void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
-  GrayImage smooth(image.width, image.height);
-  cv::Mat smooth_view = View(smooth);
+  Fit(image.width, image.height, &smooth_);
+  const GrayImage& smooth = smooth_;
+  cv::Mat smooth_view = View(smooth_);
   cv::GaussianBlur(View(image), smooth_view, cv::Size(3, 3), 0);
   const double window = Window(image.height);
   const LocalBackground background = EstimateBackground(smooth, window, kLeastNoise);
@@ -151,7 +158,8 @@ void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
     low[k] = static_cast<float>(kLowOverHigh *
                                 std::max(options_.threshold * background.noise[k], least_contrast));
   }
-  const std::vector<Component> components = FindComponents(MaskOf(smooth, background, dark, low));
+  MarkContrast(smooth, background, dark, low, &limit_, &mask_);
+  const std::vector<Component> components = FindComponents(mask_);
 
   std::vector<float> contrast, raw;
   for (const Component& c : components) {
@@ -190,6 +198,8 @@ void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
       Blob blob = Measure(*found, first);
       blob.peak = part_peak;
       blob.snr = part_peak / noise;
+      blob.whole = parts == 1 && c.left > 0 && c.top > 0 && c.right < image.width - 1 &&
+                   c.bottom < image.height - 1;
       if (part_peak < high || static_cast<int>(blob.pixel_count) < options_.min_area ||
           std::max(blob.box.width, blob.box.height) > kLongestOverWindow * window) {
         found->pixels.resize(first);

@@ -73,6 +73,7 @@ class Detector {
   double usual_length_ = 0, usual_contrast_ = 0;  // 0: not known yet
   std::deque<Trace> recent_;
   int frames_since_summary_ = 0;
+  GrayImage smooth_, limit_, mask_;  // kept, so that no frame allocates them anew
 };
 
 }  // namespace flocklift
