@@ -187,7 +187,7 @@ struct BasicEngine<T>::Impl {
     }
     herd.noise.resize(n);
     for (std::vector<T>* column : {&herd.ax, &herd.ay, &herd.az, &herd.neighbours}) {
-      column->assign(n, T(0));
+      column->assign(n + Bodies<T>::kPadding, T(0));
     }
     for (const GoalSpec& goal : world.goals) {
       if (goal.species.empty() || goal.species == swarm.species) herd.goals.push_back(goal);
@@ -204,7 +204,9 @@ struct BasicEngine<T>::Impl {
     for (Herd<T>& herd : herds) {
       std::visit([&](const auto& parameters) { StepHerd(parameters, &herd); }, herd.model);
       // In the order of the sort, one thread: the same sum always.
-      for (const T count : herd.neighbours) neighbour_sum += static_cast<double>(count);
+      for (std::size_t k = 0; k < herd.sorted.size(); ++k) {
+        neighbour_sum += static_cast<double>(herd.neighbours[k]);
+      }
       std::swap(herd.now, herd.sorted);
     }
     predators.Step(world.dt, static_cast<std::uint32_t>(steps));
@@ -246,6 +248,15 @@ struct BasicEngine<T>::Impl {
     const SpeedLimit::Params<T> limit{static_cast<T>(p.s_min), static_cast<T>(p.s_max), T(0)};
     const Vec3<T> low = Cast<T>(world.box.low), high = Cast<T>(world.box.high);
     Bodies<T>& s = herd->sorted;
+    if constexpr (std::is_same_v<T, float>) {
+      if (alone && world.dimensions == 3 && kernel != nullptr) {
+        const MoveJob job{s.x.data(),      s.y.data(),  s.z.data(),      s.vx.data(),
+                          s.vy.data(),     s.vz.data(), herd->ax.data(), herd->ay.data(),
+                          herd->az.data(), dt,          limit.min,       limit.max};
+        kernel->move(job, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last));
+        return;
+      }
+    }
     for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
       Vec3<T> x = s.Position(k), v = s.Velocity(k);
       Vec3<T> a{herd->ax[k], herd->ay[k], herd->az[k]};

@@ -55,4 +55,8 @@ void BoidsKernelAvx2(const BoidsJob& job, int first_row, int last_row, std::uint
   BoidsRows<xsimd::batch<float, Avx2>>(job, first_row, last_row, candidates);
 }
 
+void MoveKernelAvx2(const MoveJob& job, std::uint32_t first, std::uint32_t last) {
+  Move<xsimd::batch<float, Avx2>>(job, first, last);
+}
+
 }  // namespace flocklift

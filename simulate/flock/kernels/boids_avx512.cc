@@ -42,4 +42,8 @@ void BoidsKernelAvx512(const BoidsJob& job, int first_row, int last_row,
   BoidsRows<xsimd::batch<float, Avx512Vl>>(job, first_row, last_row, candidates);
 }
 
+void MoveKernelAvx512(const MoveJob& job, std::uint32_t first, std::uint32_t last) {
+  Move<xsimd::batch<float, Avx512Vl>>(job, first, last);
+}
+
 }  // namespace flocklift

@@ -6,13 +6,13 @@
 namespace flocklift {
 
 const BoidsKernelVariant kBoidsKernels[kBoidsKernelVariants] = {
-    {"sse2", [] { return true; }, BoidsKernelSse2},
+    {"sse2", [] { return true; }, BoidsKernelSse2, MoveKernelSse2},
     {"avx2",
      [] { return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0; },
-     BoidsKernelAvx2},
+     BoidsKernelAvx2, MoveKernelAvx2},
     {"avx512",
      [] { return __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("fma") != 0; },
-     BoidsKernelAvx512},
+     BoidsKernelAvx512, MoveKernelAvx512},
 };
 
 }  // namespace flocklift

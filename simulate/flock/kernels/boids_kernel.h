@@ -27,8 +27,15 @@ struct BoidsJob {
   const float *x, *y, *z, *vx, *vy, *vz;
   float d_s, d_v, alpha_s, alpha_c, alpha_a, taper;
   float reach;
-  float *ax, *ay, *az;  // [m/s^2], written; unpadded
-  float* neighbours;    // weight of those within d_v, written; unpadded
+  float *ax, *ay, *az;  // [m/s^2], written
+  float* neighbours;    // weight of those within d_v, written
+};
+
+// Input and output of the move, the same arrays. A move may touch the padding.
+struct MoveJob {
+  float *x, *y, *z, *vx, *vy, *vz;
+  const float *ax, *ay, *az;
+  float dt, s_min, s_max;
 };
 
 // Does the animals of the rows of cells first_row .. last_row - 1. `candidates` is room for as many
@@ -36,10 +43,14 @@ struct BoidsJob {
 using BoidsKernel = void (*)(const BoidsJob& job, int first_row, int last_row,
                              std::uint32_t* candidates);
 
+// Advance (simulate/flock/integrator.h) for animals first .. last - 1; first is a multiple of 16.
+using MoveKernel = void (*)(const MoveJob& job, std::uint32_t first, std::uint32_t last);
+
 struct BoidsKernelVariant {
   const char* name;
   bool (*supported)();  // by this machine
   BoidsKernel kernel;
+  MoveKernel move;
 };
 
 // From the most portable to the fastest.
@@ -47,8 +58,11 @@ inline constexpr int kBoidsKernelVariants = 3;
 extern const BoidsKernelVariant kBoidsKernels[kBoidsKernelVariants];
 
 void BoidsKernelSse2(const BoidsJob& job, int first_row, int last_row, std::uint32_t* candidates);
+void MoveKernelSse2(const MoveJob& job, std::uint32_t first, std::uint32_t last);
 void BoidsKernelAvx2(const BoidsJob& job, int first_row, int last_row, std::uint32_t* candidates);
+void MoveKernelAvx2(const MoveJob& job, std::uint32_t first, std::uint32_t last);
 void BoidsKernelAvx512(const BoidsJob& job, int first_row, int last_row, std::uint32_t* candidates);
+void MoveKernelAvx512(const MoveJob& job, std::uint32_t first, std::uint32_t last);
 
 }  // namespace flocklift
 

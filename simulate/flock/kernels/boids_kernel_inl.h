@@ -13,6 +13,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "simulate/flock/boids.h"
+#include "simulate/flock/integrator.h"
 #include "simulate/flock/kernels/boids_kernel.h"
 
 namespace flocklift {
@@ -185,6 +186,25 @@ void BoidsRows(const BoidsJob& job, int first_row, int last_row, std::uint32_t* 
     Rows<Pack>(job, Pack(job.taper), first_row, last_row, candidates);
   } else {
     Rows<Pack>(job, HardEdge{}, first_row, last_row, candidates);
+  }
+}
+
+template <typename Pack>
+void Move(const MoveJob& job, std::uint32_t first, std::uint32_t last) {
+  const SpeedLimit::Params<Pack> limit{Pack(job.s_min), Pack(job.s_max), Pack(0.0f)};
+  const auto load = [](const float* x, const float* y, const float* z) {
+    return Vec3<Pack>{Pack::load_unaligned(x), Pack::load_unaligned(y), Pack::load_unaligned(z)};
+  };
+  for (std::uint32_t k = first; k < last; k += Pack::size) {
+    Vec3<Pack> x = load(job.x + k, job.y + k, job.z + k);
+    Vec3<Pack> v = load(job.vx + k, job.vy + k, job.vz + k);
+    Advance(load(job.ax + k, job.ay + k, job.az + k), Pack(job.dt), limit, &x, &v);
+    x.x.store_unaligned(job.x + k);
+    x.y.store_unaligned(job.y + k);
+    x.z.store_unaligned(job.z + k);
+    v.x.store_unaligned(job.vx + k);
+    v.y.store_unaligned(job.vy + k);
+    v.z.store_unaligned(job.vz + k);
   }
 }
 

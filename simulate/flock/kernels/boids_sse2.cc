@@ -34,4 +34,8 @@ void BoidsKernelSse2(const BoidsJob& job, int first_row, int last_row, std::uint
   BoidsRows<xsimd::batch<float, xsimd::sse2>>(job, first_row, last_row, candidates);
 }
 
+void MoveKernelSse2(const MoveJob& job, std::uint32_t first, std::uint32_t last) {
+  Move<xsimd::batch<float, xsimd::sse2>>(job, first, last);
+}
+
 }  // namespace flocklift

@@ -47,6 +47,29 @@ TEST(BoidsKernel, EveryVariantOfThisMachineGivesTheSameBytes) {
   EXPECT_GE(variants, 1);
 }
 
+TEST(MoveKernel, EveryVariantOfThisMachineGivesTheSameBytes) {
+  NamedFlock flock = RandomFlock("", 1037, {8, 8, 8}, 13);
+  flock.velocity[5] = {};  // no direction to scale
+  BoidsParameters<double> p = PlainRules(0.4, 1.05);
+  p.s_min = 3;
+  p.s_max = 6;
+  const auto after = [&](const std::string& kernel) {
+    World world;
+    world.dt = 0.02;
+    Engine engine(world, {AsSwarm(flock, p)}, {.threads = 1, .kernel = kernel});
+    for (int step = 0; step < 5; ++step) engine.Step();
+    return engine.State();
+  };
+  const FlockState expected = after("scalar");
+  for (const BoidsKernelVariant& variant : kBoidsKernels) {
+    if (!variant.supported()) continue;
+    SCOPED_TRACE(variant.name);
+    const FlockState actual = after(variant.name);
+    EXPECT_EQ(actual.position, expected.position);
+    EXPECT_EQ(actual.velocity, expected.velocity);
+  }
+}
+
 TEST(BoidsKernel, AgreesWithDouble) {
   const NamedFlock flock = RandomFlock("", 1500, {6, 6, 6}, 12);
   for (const BoidsParameters<double>& p : {PlainRules(0.4, 1.05), PlainRules(0.4, 1.05, 0.3)}) {
