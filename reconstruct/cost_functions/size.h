@@ -3,8 +3,9 @@
 //
 // Apparent size, seen from the animal's own heading. The body has second moments along its three
 // axes: wings s, trunk g (the heading), up u, in the proportion 1 : trunk : up, and its image has
-// the squared extent, summed over both image directions and divided by (wingspan / z)^2,
-//   Q = |P s|^2 + trunk |P g|^2 + up |P u|^2,   P a = (a_x - X a_z, a_y - Y a_z)
+// the squared extent, summed over both image directions and in units of its mean over all views,
+//   Q = (|P s|^2 + trunk |P g|^2 + up |P u|^2) / (2/3 (1 + trunk + up)),
+//   P a = (a_x - X a_z, a_y - Y a_z)
 // (P is the derivative of the projection times z, so a stretch towards the image's edge is in it).
 //   e = log size - (log wingspan + bias + ratio - L + log sqrt(Q))
 // `bias` is the individual's, `ratio`, `trunk` and `up` are the flock's: how a wingspan relates to
@@ -53,7 +54,10 @@ struct SizeError {
       const T certain = 0.03 * speed2;
       across = (seen(side) + certain * across) / (Dot(side, side) + certain);
     }
-    const T extent = across + exp(log_trunk) * along + exp(log_up) * (whole - along - across);
+    const T trunk = exp(log_trunk);
+    const T up = exp(log_up);
+    const T extent =
+        1.5 * (across + trunk * along + up * (whole - along - across)) / (1.0 + trunk + up);
     error[0] = log_size - (log_wingspan + bias + ratio - q.l + 0.5 * log(extent));
   }
 };

@@ -73,7 +73,7 @@ bool ArrowSystem::Reduce(double damping, Eigen::MatrixXd* shared_matrix,
     double* row = &factor_[At(i, low)] - low;  // row[j] is entry (i, j)
     for (int j = low; j <= i; ++j) {
       double sum = band_[At(i, j)];
-      if (j == i) sum *= 1 + damping;
+      if (j == i) sum += damping * (i % 3 == 2 ? ArrowSystem::kDepthMetric : sum);
       const double* other =
           &factor_[At(j, std::max(0, j - kBand + 1))] - std::max(0, j - kBand + 1);
       for (int m = std::max(low, j - kBand + 1); m < j; ++m) sum -= row[m] * other[m];

@@ -55,9 +55,12 @@ class ArrowSystem {
   // Adds weight * (J^T J) and the gradient weight * J^T r. Entries of `path` past n are ignored.
   void Add(const ResidualRow& row, double weight = 1);
 
-  // Factorises the band and the path's own scalars with their diagonals times 1 + damping, and
-  // gives the flock's share: matrix += S, gradient += g of the reduced system. False when the
-  // system is not positive definite.
+  // Factorises the band and the path's own scalars, and gives the flock's share: matrix += S,
+  // gradient += g of the reduced system. False when the system is not positive definite.
+  // Damping multiplies the diagonal by 1 + damping (Marquardt), but adds damping * kDepthMetric to
+  // every third unknown of the band, the log depths (Levenberg): smoothness makes their diagonals
+  // huge, and a step of all of them together, the scale of the scene, must stay free.
+  static constexpr double kDepthMetric = 1e4;
   bool Reduce(double damping, Eigen::MatrixXd* shared_matrix, Eigen::VectorXd* shared_gradient);
 
   // After Reduce: the step of the path (n values, then its own scalars) for a step of the flock's

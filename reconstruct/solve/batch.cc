@@ -122,7 +122,7 @@ class Solver {
 
 bool Solver::Minimize(int max_iterations, BatchReport* report,
                       const std::function<void()>& on_iteration) {
-  constexpr double kEnough = 1e-6;  // relative fall of the cost that counts
+  constexpr double kEnough = 2e-3, kEnoughRelative = 1e-8;  // fall of the cost that counts
   double cost = Cost();
   int still = 0;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
@@ -177,7 +177,7 @@ bool Solver::Minimize(int max_iterations, BatchReport* report,
         w.cost = w.candidate_cost;
         w.damping = std::clamp(w.damping * (w.moved ? 0.2 : 8), kLeastDamping, kMostDamping);
       }
-      still = cost - candidate < kEnough * cost ? still + 1 : 0;
+      still = cost - candidate < kEnough + kEnoughRelative * cost ? still + 1 : 0;
       cost = candidate;
     }
     if (!accepted) {

@@ -19,10 +19,9 @@ constexpr double kVague = 3;
 // second moments of a silhouette weigh body and wings by area and vary more than boxes.
 constexpr Uncertain kTrunkOfBoxes{-1.2, 0.4}, kUpOfBoxes{-2.2, 0.7};
 constexpr Uncertain kTrunkOfShapes{-1.2, 0.6}, kUpOfShapes{-1.6, 0.7};
-// Log of the wings' own extent over the wingspan: 0 gliding, -0.2 to -0.3 beating, blur adds.
-constexpr double kRatioMean = -0.12;
-// Mean of log sqrt(Q) over all views, for these proportions.
-constexpr double kMeanExtent = -0.05;
+// Log of (root mean square of a box's diagonal over all views, over the wingspan): 0 to -0.1
+// gliding (the extents above add up to 5/6 of the span), -0.2 and less beating; blur adds a little.
+constexpr double kRatioMean = -0.15;
 
 Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time) {
   const double position = time / model.knot_interval - bird.first_knot;
@@ -126,7 +125,7 @@ void StartDepth(const BatchModel& model, const ScaleGuess& guess, Bird* bird) {
       .speed_time = s.speed.time,
       .acceleration_sd = s.acceleration.sd,
       .acceleration_time = s.acceleration.time,
-      .log_width = guess.log_width + kMeanExtent,
+      .log_width = guess.log_width,
       .size_sd = std::hypot(s.size.sd, s.size_between, 0.1),
       .size_time = s.size.time,
       .log_depth = guess.log_depth,
