@@ -7,11 +7,13 @@
 #include "tools/camera_command.h"
 #include "tools/evaluate_command.h"
 #include "tools/reconstruct_command.h"
+#include "tools/simulate_command.h"
 #include "tools/track_command.h"
 
 namespace flocklift {
 
 void AddCommands(CLI::App& app) {
+  AddSimulateCommand(app);
   AddCameraCommand(app);
   AddCalibrateCommand(app);
   AddTrackCommand(app);

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tools/simulate_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "simulate/camera/camera.h"
+#include "simulate/camera/camera_io.h"
+#include "simulate/core/check.h"
+#include "simulate/core/io.h"
+#include "simulate/core/rigid3.h"
+#include "simulate/core/scene_io.h"
+#include "simulate/flock/model.h"
+#include "simulate/flock/simulate_scene.h"
+#include "simulate/render/film.h"
+#include "simulate/synthetic.h"
+#include "tools/stage.h"
+
+namespace flocklift {
+namespace {
+
+void PrintModels() {
+  for (const ModelInfo& model : Models()) {
+    fmt::print("{}: {} [{}]\n", model.name, model.help, model.source);
+    for (const ParameterInfo& p : model.parameters) {
+      const std::string value = fmt::format("{:g} {}", p.value, p.unit);
+      fmt::print("  {:<12} {:<16} {}\n", p.name, value, p.help);
+    }
+    fmt::print("\n");
+  }
+}
+
+Camera CameraOf(const Scene& scene) {
+  const CameraSpec& spec = scene.camera;
+  Camera camera;
+  if (spec.file) {
+    camera = ReadCamera(*spec.file);
+  } else {
+    camera = PinholeCamera(spec.fov_deg, spec.width, spec.height);
+    camera.cam_from_world = LookAt(spec.position, spec.look_at);
+  }
+  camera.fps = scene.fps;
+  return camera;
+}
+
+// What a reconstruction may be told about the flock: the means over its animals and frames.
+void AddMeans(const SceneResult& result, nlohmann::ordered_json* figures) {
+  double speed = 0, wingspan = 0, rows = 0;
+  const auto agents = static_cast<std::size_t>(result.agents);
+  for (std::size_t k = 0; k < agents; ++k) {
+    wingspan += result.animals[k].wingspan / static_cast<double>(agents);
+    for (const TrajectoryPoint& point : result.truth.trajectories[k].points) {
+      speed += Norm(point.velocity);
+      ++rows;
+    }
+  }
+  if (rows == 0) return;
+  (*figures)["mean_speed"] = speed / rows;
+  (*figures)["mean_wingspan"] = wingspan;
+}
+
+}  // namespace
+
+void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
+  if (command.list) return PrintModels();
+  Check(!command.scene.empty(), "give a scene file, or --list");
+  Scene scene = ReadScene(command.scene);
+  if (command.seed) scene.seed = *command.seed;
+  if (common.fps) scene.fps = *common.fps;
+  const Camera camera = CameraOf(scene);
+
+  Stage stage("simulate", common);
+  stage.options() = OptionsAsJson(command.video);
+  stage.options()["seed"] = scene.seed;
+  stage.options()["fps"] = scene.fps;
+  stage.options()["video"] = !command.no_video;
+  stage.AddInput(command.scene);
+  if (scene.camera.file) stage.AddInput(*scene.camera.file);
+  for (const char* output : {"trajectories.csv", "tracks_true.csv", "camera.yaml"}) {
+    stage.AddOutput(output);
+  }
+  if (!command.no_video) stage.AddOutput("video.mp4");
+  if (stage.IsUpToDate()) return;
+
+  const Progress step_progress = stage.BeginPhase("step");
+  const SceneResult result = SimulateScene(scene, common.ThreadCount(), step_progress);
+  stage.BeginPhase("observe");
+  const Tracks tracks =
+      SynthesizeTracks(result.truth, result.animals, camera, scene.fps, common.ThreadCount());
+  if (!command.no_video) {
+    const Progress film_progress = stage.BeginPhase("film");
+    FilmTrajectories(common.out / "video.mp4", result.truth, result.animals, camera, scene.render,
+                     {.fps = scene.fps,
+                      .frames = scene.FrameCount(),
+                      .seed = scene.seed,
+                      .threads = common.ThreadCount(),
+                      .video = command.video},
+                     film_progress);
+  }
+  stage.BeginPhase("write", "files");
+  WriteTrajectories(common.out / "trajectories.csv", result.truth);
+  WriteTracks(common.out / "tracks_true.csv", tracks);
+  WriteCamera(common.out / "camera.yaml", camera);
+  stage.EndPhase();
+
+  stage.figures() = {{"agents", result.agents},
+                     {"steps", result.steps},
+                     {"mean_neighbours", result.mean_neighbours},
+                     {"mde_share", result.mde_share},
+                     {"frames", scene.FrameCount()}};
+  AddMeans(result, &stage.figures());
+  stage.Finish();
+}
+
+void AddSimulateCommand(CLI::App& app) {
+  std::shared_ptr<SimulateCommand> command;
+  CLI::App* sub = AddSubcommand<SimulateCommand>(
+      app, "simulate", "Make the true paths, tracks and video of a scene",
+      "Examples:\n"
+      "  flocklift simulate data_synthetic/demo.toml --out truth\n"
+      "  flocklift simulate scene.toml --no-video --seed 7 --out truth\n"
+      "  flocklift simulate --list",
+      {.fps = true}, &RunSimulate, &command);
+  auto* scene = sub->add_option("scene", command->scene,
+                                "a scene file (TOML; data_synthetic/README.md describes it)");
+  sub->add_option("--seed", command->seed, "of all random numbers, instead of the scene's");
+  sub->add_flag("--no-video", command->no_video, "write no video.mp4");
+  sub->add_flag("--list", command->list,
+                "name the models and their parameters with units and defaults")
+      ->excludes(scene);
+  AddFlags(*sub, command->video, "Video");
+}
+
+}  // namespace flocklift
