@@ -5,18 +5,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "simulate/camera/camera_io.h"
-#include "simulate/camera/depth_sensitivity.h"
 #include "simulate/core/check.h"
 #include "tools/board_search.h"
+#include "tools/calibration_report.h"
 #include "tools/size_text.h"
 #include "tools/stage.h"
 
@@ -46,53 +43,6 @@ Board BoardOf(const CalibrateCommand& command) {
 std::string NameOf(const Board& board) {
   return fmt::format("{}x{} {}", board.columns, board.rows,
                      board.kind == Board::Kind::kCharuco ? "ChArUco board" : "chessboard");
-}
-
-struct ScaleCase {
-  const char* key;
-  const char* text;
-  StretchError error;  // relative, for the focal length's sd
-};
-
-std::array<ScaleCase, 5> ScaleCases(double focal_sd) {
-  return {
-      {{"size", "size (wingspan)", StretchFromSize(focal_sd)},
-       {"speed_across", "speed, flight across the view", StretchFromSpeed(focal_sd, 0)},
-       {"speed_all_ways", "speed, flight in all directions", StretchFromSpeed(focal_sd, 1.0 / 3)},
-       {"speed_head_on", "speed, flight along the view", StretchFromSpeed(focal_sd, 1)},
-       {"distances", "distances (near and far)", StretchFromDistances(focal_sd)}}};
-}
-
-struct Parameter {
-  std::string name;
-  double value, sd;
-};
-
-std::vector<Parameter> ParametersOf(const Calibration& calibration, int distortion) {
-  const Intrinsics &k = calibration.camera.intrinsics, &sd = calibration.sd;
-  constexpr const char* kNames[] = {"k1", "k2", "p1", "p2", "k3", "k4",
-                                    "k5", "k6", "s1", "s2", "s3", "s4"};
-  std::vector<Parameter> parameters = {
-      {"fx", k.fx, sd.fx}, {"fy", k.fy, sd.fy}, {"cx", k.cx, sd.cx}, {"cy", k.cy, sd.cy}};
-  for (int i = 0; i < distortion; ++i) {
-    parameters.push_back({kNames[i], k.distortion[i], sd.distortion[i]});
-  }
-  return parameters;
-}
-
-void PrintTables(const std::vector<Parameter>& parameters, const Calibration& calibration) {
-  fmt::print("{:<10}{:>14}{:>12}\n", "parameter", "value", "sd");
-  for (const Parameter& p : parameters) {
-    fmt::print("{:<10}{:>14.6g}{:>12.2g}\n", p.name, p.value, p.sd);
-  }
-  fmt::print(
-      "\nWith this focal length's sd of {:.3f} %, a reconstruction errs (1 sigma) by\n"
-      "{:<34}{:>10}{:>14}\n",
-      100 * calibration.focal_sd, "when its scale comes from", "in depth", "across view");
-  for (const ScaleCase& c : ScaleCases(calibration.focal_sd)) {
-    fmt::print("{:<34}{:>8.3f} %{:>12.3f} %\n", c.text, 100 * std::abs(c.error.depth),
-               100 * std::abs(c.error.across));
-  }
 }
 
 constexpr int kFramesTried = 200;  // of a video
@@ -177,23 +127,9 @@ void RunCalibrate(const CalibrateCommand& command, const CommonOptions& common) 
   WriteCamera(common.out / "camera.yaml", calibration->camera);
 
   WarnOfWeakness(*calibration, search.views, &stage);
-  const auto parameters = ParametersOf(*calibration, command.options.distortion);
-  auto& figures = stage.figures();
-  figures = {{"reprojection_rms_px", calibration->reprojection_rms},
-             {"views_found", search.views.size()},
-             {"views_used",
-              std::count(calibration->view_kept.begin(), calibration->view_kept.end(), true)},
-             {"coverage", calibration->coverage},
-             {"focal_sd_percent", 100 * calibration->focal_sd}};
-  for (const Parameter& p : parameters) {
-    figures["parameters"][p.name] = {{"value", p.value}, {"sd", p.sd}};
-  }
-  for (const ScaleCase& c : ScaleCases(calibration->focal_sd)) {
-    figures["depth_error_percent"][c.key] = 100 * std::abs(c.error.depth);
-    figures["across_error_percent"][c.key] = 100 * std::abs(c.error.across);
-  }
+  stage.figures() = CalibrationFigures(*calibration);
   stage.Finish();
-  if (!common.quiet && !common.json) PrintTables(parameters, *calibration);
+  if (!common.quiet && !common.json) fmt::print("{}", CalibrationTables(*calibration));
 }
 
 void AddCalibrateCommand(CLI::App& app) {
