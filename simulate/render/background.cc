@@ -146,7 +146,10 @@ void Background::MakeClouds(std::uint64_t seed) {
 
 void Background::Row(int v, int frame, std::int16_t* out) const {
   if (period_ == 0) {
-    for (int u = 0; u < width_; ++u) std::copy_n(sky_.data() + 3 * v, 3, out + 3 * u);
+    const std::int16_t* sky = sky_.data() + 3 * v;
+    for (int u = 0; u < width_; ++u) {
+      for (int c = 0; c < 3; ++c) out[3 * u + c] = sky[c];
+    }
     return;
   }
   const double way = -drift_px_ * (frame - 1);

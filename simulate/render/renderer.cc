@@ -22,8 +22,8 @@ constexpr std::array<double, 3> kPlumage{46, 45, 50};  // blue green red [grey l
 constexpr double kPlumageSpread = 5;                   // sd between individuals [grey levels]
 constexpr std::uint64_t kPlumageStream = 0x706c756d65;
 
-constexpr double kStepPx = 1.6;   // way of a body or a wing tip between two exposures [px]
-constexpr int kMaxExposures = 8;  // of one frame
+constexpr double kStepPx = 3;  // way of body and wing tip together between two exposures [px]
+constexpr int kMaxPairs = 4;   // of exposures before and after the frame's time
 
 // One animal, ready to be laid over the background.
 struct Sprite {
@@ -55,17 +55,15 @@ std::optional<CoverageMask> ExposeMask(const FlyingAnimal& animal, double time, 
   if (!middle) return std::nullopt;
   *depth = middle->depth;
   const double motion = MotionPx(animal, middle->depth, shutter, camera);
-  const int exposures =
-      static_cast<int>(std::clamp(std::ceil(motion / kStepPx), 1.0, double(kMaxExposures)));
-  std::vector<Silhouette> silhouettes;
-  if (exposures == 1) {
-    silhouettes.push_back(middle->silhouette);
-  } else {
-    for (int k = 0; k < exposures; ++k) {
-      const double offset = shutter * ((k + 0.5) / exposures - 0.5);
-      auto exposed = Expose(animal, time, offset, camera, cam_from_world);
-      if (exposed) silhouettes.push_back(std::move(exposed->silhouette));
-    }
+  // An odd number, so that one of them is the middle.
+  const int pairs =
+      static_cast<int>(std::clamp(std::ceil(0.5 * (motion / kStepPx - 1)), 0.0, double(kMaxPairs)));
+  const int exposures = 2 * pairs + 1;
+  std::vector<Silhouette> silhouettes{middle->silhouette};
+  for (int k = -pairs; k <= pairs; ++k) {
+    if (k == 0) continue;
+    auto exposed = Expose(animal, time, shutter * k / exposures, camera, cam_from_world);
+    if (exposed) silhouettes.push_back(std::move(exposed->silhouette));
   }
   double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
   for (const Silhouette& silhouette : silhouettes) {

@@ -84,10 +84,9 @@ void AddCrossings(const Outline& outline, const Piece& p, const Piece& q,
 std::vector<double> StripBounds(const Outline& outline) {
   std::vector<double> bounds;
   bounds.reserve(4 * outline.edges.size());
-  for (const Edge& edge : outline.edges) {
-    bounds.push_back(edge.top);
-    bounds.push_back(edge.bottom);
-  }
+  // Every corner is the top of an edge or the bottom of its polygon.
+  for (const Edge& edge : outline.edges) bounds.push_back(edge.top);
+  for (const Piece& piece : outline.pieces) bounds.push_back(piece.bottom);
   for (std::size_t p = 0; p < outline.pieces.size(); ++p) {
     for (std::size_t q = p + 1; q < outline.pieces.size(); ++q) {
       if (outline.pieces[p].MayMeet(outline.pieces[q])) {
@@ -131,6 +130,19 @@ void IntervalsAt(double y, const Outline& outline, std::vector<Interval>* interv
     }
     (*intervals)[k] = moved;
   }
+}
+
+// A trapezoid that goes on as long as it ends on the same two edges.
+struct Open {
+  std::size_t left_edge, right_edge;
+  double top;
+};
+
+Trapezoid Between(const Outline& outline, const Open& open, double bottom) {
+  const Edge& left = outline.edges[open.left_edge];
+  const Edge& right = outline.edges[open.right_edge];
+  return {open.top,           bottom,          left.At(open.top), left.At(bottom),
+          right.At(open.top), right.At(bottom)};
 }
 
 }  // namespace
@@ -179,13 +191,14 @@ Silhouette UnionOf(std::span<const ConvexPolygon> polygons) {
   const Outline outline = OutlineOf(polygons);
   const std::vector<double> bounds = StripBounds(outline);
   Silhouette silhouette;
-  silhouette.trapezoids.reserve(bounds.size());
   std::vector<Interval> intervals;
+  std::vector<Open> open, still_open;
   for (std::size_t k = 1; k < bounds.size(); ++k) {
     const double top = bounds[k - 1], bottom = bounds[k];
     const double middle = 0.5 * (top + bottom);
     if (!(top < middle && middle < bottom)) continue;
     IntervalsAt(middle, outline, &intervals);
+    still_open.clear();
     for (std::size_t i = 0; i < intervals.size();) {
       Interval merged = intervals[i];
       for (++i; i < intervals.size() && intervals[i].left <= merged.right; ++i) {
@@ -193,12 +206,17 @@ Silhouette UnionOf(std::span<const ConvexPolygon> polygons) {
         merged.right = intervals[i].right;
         merged.right_edge = intervals[i].right_edge;
       }
-      const Edge& left = outline.edges[merged.left_edge];
-      const Edge& right = outline.edges[merged.right_edge];
-      silhouette.trapezoids.push_back(
-          {top, bottom, left.At(top), left.At(bottom), right.At(top), right.At(bottom)});
+      const auto same = std::find_if(open.begin(), open.end(), [&](const Open& o) {
+        return o.left_edge == merged.left_edge && o.right_edge == merged.right_edge;
+      });
+      const double started = same != open.end() ? same->top : top;
+      still_open.push_back({merged.left_edge, merged.right_edge, started});
+      if (same != open.end()) open.erase(same);
     }
+    for (const Open& o : open) silhouette.trapezoids.push_back(Between(outline, o, top));
+    std::swap(open, still_open);
   }
+  for (const Open& o : open) silhouette.trapezoids.push_back(Between(outline, o, bounds.back()));
   return silhouette;
 }
 
