@@ -4,7 +4,7 @@
 #include "simulate/core/input_file.h"
 
 #include <cerrno>
-#include <cstring>
+#include <system_error>
 
 #include "simulate/core/check.h"
 
@@ -21,7 +21,8 @@ std::ifstream OpenInput(const std::filesystem::path& path) {
   }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
-    throw InputError(path.string(), 0, std::string("cannot be opened: ") + std::strerror(errno),
+    throw InputError(path.string(), 0,
+                     "cannot be opened: " + std::generic_category().message(errno),
                      "check its permissions");
   }
   return stream;

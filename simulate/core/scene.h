@@ -7,6 +7,7 @@
 #ifndef FLOCKLIFT_SIMULATE_CORE_SCENE_H_
 #define FLOCKLIFT_SIMULATE_CORE_SCENE_H_
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -101,7 +102,7 @@ struct Scene {
   CameraSpec camera;
   RenderSpec render;
 
-  int FrameCount() const { return static_cast<int>(duration * fps + 0.5); }
+  int FrameCount() const { return static_cast<int>(std::lround(duration * fps)); }
 };
 
 }  // namespace flocklift

@@ -4,14 +4,15 @@
 #include "simulate/core/text_writer.h"
 
 #include <cerrno>
-#include <cstring>
 #include <stdexcept>
+#include <system_error>
 
 namespace flocklift::internal {
 namespace {
 
 [[noreturn]] void FailWriting(const std::filesystem::path& path) {
-  throw std::runtime_error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+  throw std::runtime_error(
+      fmt::format("cannot write {}: {}", path.string(), std::generic_category().message(errno)));
 }
 
 }  // namespace

@@ -79,11 +79,11 @@ std::vector<DetectionFrame> ReadDetectionsWith(const Read& read) {
   std::stable_sort(detections.begin(), detections.end(),
                    [](const Detection& a, const Detection& b) { return a.frame < b.frame; });
   std::vector<DetectionFrame> frames;
-  for (Detection& detection : detections) {
+  for (const Detection& detection : detections) {
     if (frames.empty() || frames.back().frame != detection.frame) {
       frames.push_back({detection.frame, {}});
     }
-    frames.back().detections.push_back(std::move(detection));
+    frames.back().detections.push_back(detection);
   }
   return frames;
 }
