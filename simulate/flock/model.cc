@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "simulate/core/check.h"
 #include "simulate/core/suggest.h"
@@ -40,6 +41,13 @@ struct Collect {
   }
 };
 
+std::string RangeText(const Range& range) {
+  if (std::isinf(range.high)) {
+    return std::isinf(range.low) ? "a number" : fmt::format("{} or more", range.low);
+  }
+  return fmt::format("{} to {}", range.low, range.high);
+}
+
 struct Assign {
   const ModelSpec& spec;
 
@@ -49,9 +57,9 @@ struct Assign {
     if (given == spec.parameters.end()) return;
     value = given->second;
     if (value >= range.low && value <= range.high) return;
-    throw InputError(
-        spec.WhereOf(given->first), 0, fmt::format("{} of model {} is {}", name, spec.name, value),
-        fmt::format("give {} to {}{}{}", range.low, range.high, unit.empty() ? "" : " ", unit));
+    throw InputError(spec.WhereOf(given->first), 0,
+                     fmt::format("{} of model {} is {}", name, spec.name, value),
+                     "give " + RangeText(range) + (unit.empty() ? "" : " " + std::string(unit)));
   }
 };
 
