@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A reconstructed flock, flown on by a model: the state at one frame, run forward through the
+// force engine that also makes the synthetic flocks. How soon it parts from the reconstruction says
+// how much of the motion the model explains; flying straight on is the model to beat.
+// World frame, z up; metres, seconds.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_REPLAY_REPLAY_H_
+#define FLOCKLIFT_RECONSTRUCT_REPLAY_REPLAY_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "simulate/core/options.h"
+#include "simulate/core/progress.h"
+#include "simulate/core/scene.h"
+#include "simulate/core/trajectory.h"
+
+namespace flocklift {
+
+struct ReplayOptions {
+  int frame = 0;
+  double duration = 0;
+  int count = 0;
+  int substeps = 4;
+};
+
+template <typename Visitor>
+void Describe(Visitor& visit, ReplayOptions& o) {
+  visit("frame", o.frame, {.low = 0}, "", "where to start; 0: the first frame with most animals");
+  visit("duration", o.duration, {.low = 0, .high = 1e5}, "s",
+        "how long to fly on; 0: to the reconstruction's last frame");
+  visit("count", o.count, {.low = 0, .high = 1e6}, "",
+        "animals; 0: those of the frame. More are copies of some, a neighbour's distance aside");
+  visit("substeps", o.substeps, {.low = 1, .high = 1000}, "", "steps of the engine a frame");
+}
+
+// Root mean square distance from the reconstruction, over the animals that are in both.
+struct Divergence {
+  double time = 0;             // since the start [s]
+  int animals = 0;             // in both
+  double model_rms = 0;        // [m]
+  double straight_on_rms = 0;  // of flight at the starting velocity [m]
+};
+
+struct ReplayResult {
+  Trajectories replayed;  // frames as in the reconstruction; ids too, copies get ids above them
+  int start_frame = 0;
+  std::vector<Divergence> divergence;  // by frame, the start left out
+};
+
+// Cruising speeds are each animal's mean speed in the reconstruction. Throws InputError for a model
+// or parameter that does not exist, std::invalid_argument for a frame without animals.
+ReplayResult Replay(const ReplayOptions& options, const ModelSpec& model,
+                    const Trajectories& reconstruction, double fps, std::uint64_t seed, int threads,
+                    const Progress& progress = {});
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_REPLAY_REPLAY_H_

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/replay/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "simulate/core/rng.h"
+#include "simulate/flock/simulate_scene.h"
+
+namespace flocklift {
+namespace {
+
+constexpr double kFps = 30;
+
+// Boids among themselves, no walls near, no goals, no noise: what a replay can repeat.
+Scene OpenSkyScene() {
+  Scene scene;
+  scene.duration = 3;
+  scene.fps = kFps;
+  scene.box = {{-1e6, -1e6, -1e6}, {1e6, 1e6, 1e6}};
+  SpeciesSpec species;
+  species.count = 12;
+  species.speed_spread = 0;
+  species.start = Region{{-6, -6, -3}, {6, 6, 3}};
+  species.model.parameters["noise"] = 0;
+  scene.species = {species};
+  return scene;
+}
+
+TEST(Replay, OfATrueFlockByItsOwnModelStaysWithIt) {
+  const Scene scene = OpenSkyScene();
+  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  ReplayOptions options;
+  options.frame = 1;
+  options.substeps = scene.substeps;
+  const ReplayResult result = Replay(options, scene.species[0].model, truth, kFps, 1, 1);
+  ASSERT_EQ(result.divergence.size(), 89U);
+  const Divergence& end = result.divergence.back();
+  EXPECT_EQ(end.animals, 12);
+  EXPECT_NEAR(end.time, 89 / kFps, 1e-9);
+  EXPECT_GT(end.straight_on_rms, 0.5);                  // they did turn
+  EXPECT_LT(end.model_rms, 0.1 * end.straight_on_rms);  // cruising speeds are means of 3 s
+}
+
+TEST(Replay, ByAnotherModelParts) {
+  const Scene scene = OpenSkyScene();
+  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  ModelSpec wrong = scene.species[0].model;
+  wrong.parameters["alpha_c"] = 20;
+  ReplayOptions options;
+  options.frame = 1;
+  const double right =
+      Replay(options, scene.species[0].model, truth, kFps, 1, 1).divergence.back().model_rms;
+  EXPECT_GT(Replay(options, wrong, truth, kFps, 1, 1).divergence.back().model_rms, 3 * right);
+}
+
+// Two animals straight on and never near each other: no model moves them from their line.
+Trajectories Pair() {
+  Trajectories pair;
+  for (const Id id : {4, 9}) {
+    Trajectory trajectory{.id = id, .points = {}};
+    for (int frame = 3; frame <= 20; ++frame) {
+      TrajectoryPoint point;
+      point.frame = frame;
+      point.position = {10.0 * frame / kFps, 1000.0 * static_cast<double>(id), 5};
+      trajectory.points.push_back(point);
+    }
+    pair.trajectories.push_back(trajectory);
+  }
+  pair.trajectories[1].points.pop_back();  // the second one leaves earlier
+  ComputeVelocities(kFps, &pair);
+  return pair;
+}
+
+TEST(Replay, KeepsFramesAndIdsAndStartsWhereMostAre) {
+  const ReplayResult result = Replay(
+      {}, {.name = "boids", .parameters = {}, .where = {}, .where_of = {}}, Pair(), kFps, 1, 1);
+  EXPECT_EQ(result.start_frame, 3);
+  ASSERT_EQ(result.replayed.trajectories.size(), 2U);
+  EXPECT_EQ(result.replayed.trajectories[0].id, 4);
+  EXPECT_EQ(result.replayed.trajectories[1].id, 9);
+  EXPECT_EQ(result.replayed.trajectories[1].points.front().frame, 3);
+  EXPECT_EQ(result.replayed.trajectories[1].points.back().frame, 20);
+  EXPECT_EQ(result.divergence.back().animals, 1);  // the other one had left
+  EXPECT_NEAR(result.divergence.back().straight_on_rms, 0, 1e-6);
+}
+
+TEST(Replay, MoreAnimalsAreCopiesWithNewIdsAndTheSameAtAnyThreadCount) {
+  ReplayOptions options;
+  options.count = 50;
+  const ModelSpec boids{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
+  const ReplayResult one = Replay(options, boids, Pair(), kFps, 7, 1);
+  const ReplayResult two = Replay(options, boids, Pair(), kFps, 7, 2);
+  ASSERT_EQ(one.replayed.trajectories.size(), 50U);
+  EXPECT_EQ(one.replayed.trajectories[2].id, 10);
+  for (std::size_t k = 0; k < 50; ++k) {
+    EXPECT_EQ(one.replayed.trajectories[k].points.back().position,
+              two.replayed.trajectories[k].points.back().position);
+  }
+}
+
+TEST(Replay, RefusesAFrameWithoutAnimals) {
+  ReplayOptions options;
+  options.frame = 1;
+  const ModelSpec boids{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
+  EXPECT_THROW(Replay(options, boids, Pair(), kFps, 1, 1), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace flocklift

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// `flocklift replay`: a reconstructed flock, flown on by a fitted model.
+
+#ifndef FLOCKLIFT_TOOLS_REPLAY_COMMAND_H_
+#define FLOCKLIFT_TOOLS_REPLAY_COMMAND_H_
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "reconstruct/replay/replay.h"
+#include "tools/command.h"
+
+namespace flocklift {
+
+struct ReplayCommand {
+  std::filesystem::path trajectories = {}, parameters = {};
+  std::filesystem::path camera = {};  // empty: no video
+  double wingspan = 0.7;              // of the animals in the video [m]
+  ReplayOptions replay = {};
+};
+
+// Writes trajectories.csv of the replayed flock, and video.mp4 when a camera is given.
+void RunReplay(const ReplayCommand& command, const CommonOptions& common);
+
+void AddReplayCommand(CLI::App& app);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TOOLS_REPLAY_COMMAND_H_
