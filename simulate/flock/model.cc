@@ -57,9 +57,9 @@ struct Assign {
     if (given == spec.parameters.end()) return;
     value = given->second;
     if (value >= range.low && value <= range.high) return;
-    throw InputError(spec.WhereOf(given->first), 0,
-                     fmt::format("{} of model {} is {}", name, spec.name, value),
-                     "give " + RangeText(range) + (unit.empty() ? "" : " " + std::string(unit)));
+    throw InputError(
+        spec.WhereOf(given->first), 0, fmt::format("{} of model {} is {}", name, spec.name, value),
+        "give " + RangeText(range) + (unit.empty() ? "" : " [" + std::string(unit) + "]"));
   }
 };
 
