@@ -7,6 +7,7 @@
 #include "tools/camera_command.h"
 #include "tools/evaluate_command.h"
 #include "tools/reconstruct_command.h"
+#include "tools/report_command.h"
 #include "tools/simulate_command.h"
 #include "tools/track_command.h"
 
@@ -19,6 +20,7 @@ void AddCommands(CLI::App& app) {
   AddTrackCommand(app);
   AddReconstructCommand(app);
   AddEvaluateCommand(app);
+  AddReportCommand(app);
 }
 
 }  // namespace flocklift

@@ -80,7 +80,12 @@ std::string NumberText(double value, int digits) {
   if (size == 0) return "0";
   if (size < 1e-4 || size >= 1e7) return WithTrueMinus(fmt::format("{:.{}g}", value, digits));
   const int magnitude = static_cast<int>(std::floor(std::log10(size)));
-  return FixedText(value, std::max(0, digits - 1 - magnitude));
+  const int decimals = std::max(0, digits - 1 - magnitude);
+  std::string text = FixedText(value, decimals);
+  if (decimals == 0) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
 }
 
 std::string FixedText(double value, int decimals) {

@@ -15,7 +15,8 @@ namespace flocklift {
 // characters that XML forbids and bytes that are no UTF-8 become U+FFFD.
 std::string EscapeMarkup(std::string_view text);
 
-// A number for people: `digits` significant ones, no exponent between 1e-4 and 1e7, a true minus.
+// A number for people: `digits` significant ones, zeros at the end of the decimals left out, no
+// exponent between 1e-4 and 1e7, a true minus.
 std::string NumberText(double value, int digits = 3);
 
 // A number for people with `decimals` places.

@@ -17,7 +17,7 @@
 namespace flocklift {
 namespace {
 
-constexpr double kTitleHeight = 20, kHeaderHeight = 20, kCharacter = 6.3;
+constexpr double kTitleHeight = 20, kHeaderHeight = 26, kCharacter = 6.8;
 constexpr std::size_t kMostLinePoints = 3000, kMostScatterPoints = 4000;
 constexpr double kTolerancePx = 0.25;
 
@@ -263,13 +263,15 @@ void Plot::AppendAxes(const Frame& frame, std::string* svg) const {
   const int rows = std::max(2, static_cast<int>(frame.height / 40));
   Ticks x = NiceTicks(frame.x.low, frame.x.high, columns);
   Ticks y = NiceTicks(frame.y.low, frame.y.high, rows);
-  if (options_.equal_axes && x.step != y.step) {  // one grid of squares
+  if (options_.equal_axes && x.step != y.step) {  // one grid of squares, where it has enough rows
     const double step = std::max(x.step, y.step);
     const auto wanted = [&](const AxisRange& range) {
       return std::max(1, static_cast<int>(std::ceil((range.high - range.low) / step - 1e-9)));
     };
-    x = NiceTicks(frame.x.low, frame.x.high, wanted(frame.x));
-    y = NiceTicks(frame.y.low, frame.y.high, wanted(frame.y));
+    if (wanted(frame.x) >= 3 && wanted(frame.y) >= 3) {
+      x = NiceTicks(frame.x.low, frame.x.high, wanted(frame.x));
+      y = NiceTicks(frame.y.low, frame.y.high, wanted(frame.y));
+    }
   }
   std::string grid;
   for (const double at : y.at) {
@@ -406,7 +408,7 @@ void Plot::AppendShape(const Frame& frame, const Shape& shape, std::string* svg)
     }
     case Kind::kText: {
       const Vec2d at = frame.Local(shape.points[0]);
-      if (IsFinite(at)) *svg += PixelText(at.x + 8, at.y + 4, "", "label", shape.text);
+      if (IsFinite(at)) *svg += PixelText(at.x + 10, at.y + 4, "", "label halo", shape.text);
       return;
     }
     case Kind::kVertical: {

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tools/report/run_folder.h"
+
+#include <array>
+#include <fstream>
+
+#include "simulate/camera/camera_io.h"
+#include "simulate/core/check.h"
+#include "simulate/core/io.h"
+
+namespace flocklift {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr std::array kStages = {"simulate", "track", "reconstruct", "fit", "replay", "evaluate"};
+
+Json ReadJson(const fs::path& path) {
+  std::ifstream file(path);
+  Json json = Json::parse(file, nullptr, /*allow_exceptions=*/false);
+  if (!file.is_open() || json.is_discarded()) {
+    throw InputError(path.string(), 0, "is no JSON", "run the command that made it again");
+  }
+  return json;
+}
+
+// The first of the files that is there; notes it among the files read.
+std::optional<fs::path> Find(const std::vector<fs::path>& candidates, RunFolder* run) {
+  for (const fs::path& path : candidates) {
+    if (!fs::is_regular_file(path)) continue;
+    run->files.push_back(path);
+    return path;
+  }
+  return std::nullopt;
+}
+
+void ReadSummaries(const std::vector<fs::path>& folders, RunFolder* run) {
+  for (const char* stage : kStages) {
+    for (const fs::path& folder : folders) {
+      const auto path = Find({folder / (std::string("summary.") + stage + ".json")}, run);
+      if (!path) continue;
+      run->summaries.push_back({stage, ReadJson(*path)});
+      break;
+    }
+  }
+}
+
+// The inputs of a stage, as paths that may have been relative to the folder where it ran.
+std::vector<fs::path> InputsOf(const RunFolder& run, const std::string& stage) {
+  std::vector<fs::path> paths;
+  for (const StageSummary& summary : run.summaries) {
+    if (summary.stage != stage || !summary.json.is_object()) continue;
+    const Json inputs = summary.json.value("inputs", Json::array());
+    if (!inputs.is_array()) continue;
+    for (const Json& input : inputs) {
+      if (!input.is_object() || !input.contains("name") || !input["name"].is_string()) continue;
+      const fs::path name = input["name"].get<std::string>();
+      paths.push_back(name);
+      paths.push_back(run.folder / name);
+      paths.push_back(run.folder / name.filename());
+    }
+  }
+  return paths;
+}
+
+std::optional<fs::path> FindCamera(const std::vector<fs::path>& folders, RunFolder* run) {
+  std::vector<fs::path> candidates;
+  candidates.push_back(run->folder / "camera.yaml");
+  for (const char* stage : {"reconstruct", "replay"}) {
+    for (const fs::path& path : InputsOf(*run, stage)) {
+      if (path.extension() == ".yaml" || path.extension() == ".yml") candidates.push_back(path);
+    }
+  }
+  for (const fs::path& folder : folders) candidates.push_back(folder / "camera.yaml");
+  return Find(candidates, run);
+}
+
+std::optional<fs::path> FindVideo(const std::vector<fs::path>& folders, const RunFolder& run) {
+  std::vector<fs::path> candidates;
+  for (const fs::path& path : InputsOf(run, "track")) {
+    if (path.extension() != ".txt") candidates.push_back(path);  // corrections are no footage
+  }
+  for (const fs::path& folder : folders) candidates.push_back(folder / "video.mp4");
+  for (const fs::path& path : candidates) {
+    std::error_code error;
+    if (!path.empty() && fs::exists(path, error)) return path;
+  }
+  return std::nullopt;
+}
+
+std::vector<fs::path> CsvOrHdf5(const fs::path& folder, const std::string& stem) {
+  return {folder / (stem + ".csv"), folder / (stem + ".h5")};
+}
+
+std::optional<Trajectories> ReadPaths(const fs::path& folder, RunFolder* run) {
+  const auto path = Find(CsvOrHdf5(folder, "trajectories"), run);
+  if (!path) return std::nullopt;
+  return ReadTrajectories(*path);
+}
+
+// The first folder that holds a truth; empty when none does.
+fs::path FindTruth(const std::vector<fs::path>& candidates) {
+  for (const fs::path& folder : candidates) {
+    for (const char* name : {"trajectories.csv", "trajectories.h5", "tracks_true.csv"}) {
+      if (fs::is_regular_file(folder / name)) return folder;
+    }
+  }
+  return {};
+}
+
+void FillVelocities(double fps, std::optional<Trajectories>* trajectories) {
+  if (*trajectories && !(*trajectories)->has_velocity) {
+    ComputeVelocities(fps, &trajectories->value());
+  }
+}
+
+}  // namespace
+
+const Json& RunFolder::Figure(const std::string& stage, const std::string& name) const {
+  static const Json kNone;
+  for (const StageSummary& summary : summaries) {
+    if (summary.stage != stage || !summary.json.is_object()) continue;
+    const auto figures = summary.json.find("figures");
+    if (figures == summary.json.end() || !figures->is_object()) continue;
+    const auto figure = figures->find(name);
+    if (figure != figures->end()) return *figure;
+  }
+  return kNone;
+}
+
+double RunFolder::TimeOf(int frame) const { return fps ? (frame - 1) / *fps : frame; }
+
+const char* RunFolder::TimeLabel() const { return fps ? "time [s]" : "frame"; }
+
+RunFolder ReadRunFolder(const fs::path& folder, const std::optional<fs::path>& truth_given,
+                        std::optional<double> fps) {
+  if (!fs::is_directory(folder)) {
+    throw InputError(folder.string(), 0, "is no folder", "give the folder of a run");
+  }
+  if (truth_given && !fs::is_directory(*truth_given)) {
+    throw InputError(truth_given->string(), 0, "is no folder", "give the folder of the truth");
+  }
+  RunFolder run;
+  run.folder = folder;
+  std::error_code ignored;
+  const fs::path parent = fs::canonical(folder).parent_path();
+  const fs::path truth =
+      truth_given ? *truth_given : FindTruth({folder / "truth", parent / "truth"});
+  std::vector<fs::path> folders = {folder, folder / "replay"};
+  if (!truth.empty()) folders.push_back(truth);
+  // A round trip keeps its scores above truth and result.
+  const bool is_round_trip = !truth.empty() && fs::equivalent(truth, parent / "truth", ignored);
+  if (is_round_trip) folders.push_back(parent);
+
+  ReadSummaries(folders, &run);
+  if (const auto path = FindCamera(folders, &run)) run.camera = ReadCamera(*path);
+  if (const auto path = Find(CsvOrHdf5(folder, "tracks"), &run)) {
+    run.tracks = ReadTracks(*path);
+    if (const auto shapes = Find(CsvOrHdf5(folder, "shapes"), &run)) {
+      ReadShapes(*shapes, &*run.tracks);
+    }
+  }
+  run.trajectories = ReadPaths(folder, &run);
+  if (const auto path = Find({folder / "parameters.toml"}, &run)) {
+    run.parameters = ReadParameters(*path);
+  }
+  run.replay = ReadPaths(folder / "replay", &run);
+  if (!truth.empty()) {
+    run.true_trajectories = ReadPaths(truth, &run);
+    if (const auto path = Find(CsvOrHdf5(truth, "tracks_true"), &run)) {
+      run.true_tracks = ReadTracks(*path);
+    }
+  }
+  std::vector<fs::path> scores = {folder / "scores.json"};
+  if (is_round_trip) scores.push_back(parent / "scores.json");
+  if (const auto path = Find(scores, &run)) run.scores = ReadJson(*path);
+  if (!run.tracks && !run.trajectories) {
+    throw InputError(folder.string(), 0, "holds neither tracks.csv nor trajectories.csv",
+                     "give the folder that `flocklift run`, `track` or `reconstruct` wrote");
+  }
+  run.video = FindVideo(folders, run);
+
+  run.fps = fps;
+  if (!run.fps && run.trajectories) run.fps = run.trajectories->fps;
+  if (!run.fps && run.tracks) run.fps = run.tracks->fps;
+  if (!run.fps && run.camera) run.fps = run.camera->fps;
+  if (!run.fps && run.true_trajectories) run.fps = run.true_trajectories->fps;
+  if (run.fps) {
+    for (auto* paths : {&run.trajectories, &run.replay, &run.true_trajectories}) {
+      FillVelocities(*run.fps, paths);
+    }
+  }
+  return run;
+}
+
+}  // namespace flocklift

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the commands left in a folder, read into memory for the report: whatever is there of tracks,
+// trajectories, camera, parameters, replay, summaries, and the truth beside them.
+
+#ifndef FLOCKLIFT_TOOLS_REPORT_RUN_FOLDER_H_
+#define FLOCKLIFT_TOOLS_REPORT_RUN_FOLDER_H_
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulate/camera/camera.h"
+#include "simulate/core/observations.h"
+#include "simulate/core/parameters.h"
+#include "simulate/core/trajectory.h"
+
+namespace flocklift {
+
+struct StageSummary {
+  std::string stage;  // "track", "reconstruct" ..
+  nlohmann::ordered_json json;
+};
+
+struct RunFolder {
+  std::filesystem::path folder;
+  std::optional<double> fps;  // [1/s]
+  std::optional<Camera> camera;
+  std::optional<Tracks> tracks;
+  std::optional<Trajectories> trajectories;  // velocities filled where fps is known
+  std::optional<Parameters> parameters;
+  std::optional<Trajectories> replay;
+  std::optional<Tracks> true_tracks;
+  std::optional<Trajectories> true_trajectories;
+  std::vector<StageSummary> summaries;  // in the order of the stages
+  nlohmann::ordered_json scores;        // of scores.json; null when there is none
+  std::optional<std::filesystem::path> video;
+  std::vector<std::filesystem::path> files;  // all that were read, the video not among them
+
+  // A figure of a stage's summary; null when there is none.
+  const nlohmann::ordered_json& Figure(const std::string& stage, const std::string& name) const;
+  double TimeOf(int frame) const;  // [s], or the frame's number where fps is not known
+  const char* TimeLabel() const;
+};
+
+// `truth`: the folder of the truth; not given: DIR/truth or DIR/../truth, if there. `fps` overrides
+// what the files say. Throws InputError for a folder that is none or holds nothing to report, and
+// for a file that is damaged.
+RunFolder ReadRunFolder(const std::filesystem::path& folder,
+                        const std::optional<std::filesystem::path>& truth,
+                        std::optional<double> fps);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TOOLS_REPORT_RUN_FOLDER_H_
