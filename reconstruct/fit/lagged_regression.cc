@@ -21,41 +21,11 @@ using RowMap = Eigen::Map<const VectorXd>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSingular = 1e-9;  // of the scaled moment matrix's largest singular value
 
-// What one group's unknown takes part in.
-struct GroupMoments {
-  double qn = 0, qq = 0, nn = 0, qy = 0;
-  VectorXd zn, qx;  // p
-
-  bool Solvable() const { return std::abs(qn) > 1e-6 * std::sqrt(qq * nn) && qn != 0; }
-};
-
 RowMap Features(const RegressionRows& rows, std::size_t e) {
   return {rows.features.data() + e * static_cast<std::size_t>(rows.terms), rows.terms};
 }
 RowMap Instruments(const RegressionRows& rows, std::size_t e) {
   return {rows.instruments.data() + e * static_cast<std::size_t>(rows.terms), rows.terms};
-}
-
-std::vector<GroupMoments> SumGroups(const RegressionRows& rows) {
-  std::vector<GroupMoments> groups;
-  if (rows.nuisance.empty()) return groups;
-  const int count = *std::max_element(rows.group.begin(), rows.group.end()) + 1;
-  groups.resize(static_cast<std::size_t>(count));
-  for (GroupMoments& g : groups) {
-    g.zn = VectorXd::Zero(rows.terms);
-    g.qx = VectorXd::Zero(rows.terms);
-  }
-  for (std::size_t e = 0; e < rows.size(); ++e) {
-    GroupMoments& g = groups[static_cast<std::size_t>(rows.group[e])];
-    const double w = rows.weight[e], n = rows.nuisance[e], q = rows.nuisance_instrument[e];
-    g.qn += w * q * n;
-    g.qq += w * q * q;
-    g.nn += w * n * n;
-    g.qy += w * q * rows.response[e];
-    g.zn += w * n * Instruments(rows, e);
-    g.qx += w * q * Features(rows, e);
-  }
-  return groups;
 }
 
 // The long-run covariance of the scores, summed over time: T times that of their mean.
@@ -82,28 +52,12 @@ double StudentQuantile975(int nu) {
          (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);
 }
 
-std::vector<double> Residuals(const RegressionRows& rows, const std::vector<double>& theta) {
-  const RowMap map(theta.data(), rows.terms);
-  const std::vector<GroupMoments> groups = SumGroups(rows);
-  std::vector<double> residuals(rows.size());
-  for (std::size_t e = 0; e < rows.size(); ++e) {
-    residuals[e] = rows.response[e] - Features(rows, e).dot(map);
-    if (groups.empty()) continue;
-    const GroupMoments& g = groups[static_cast<std::size_t>(rows.group[e])];
-    residuals[e] -= g.Solvable() ? rows.nuisance[e] * (g.qy - g.qx.dot(map)) / g.qn
-                                 : std::numeric_limits<double>::quiet_NaN();
-  }
-  return residuals;
-}
-
 RegressionResult SolveRegression(const RegressionRows& rows) {
   const int p = rows.terms;
   const std::size_t count = rows.size();
   const auto np = static_cast<std::size_t>(p);
   Check(p > 0 && rows.features.size() == count * np && rows.instruments.size() == count * np &&
-            rows.weight.size() == count && rows.time.size() == count &&
-            rows.group.size() == count && rows.nuisance.size() == rows.nuisance_instrument.size() &&
-            (rows.nuisance.empty() || rows.nuisance.size() == count),
+            rows.weight.size() == count && rows.time.size() == count && rows.group.size() == count,
         "the arrays of a regression have different lengths");
   RegressionResult result;
   result.estimate.assign(np, 0.0);
@@ -123,13 +77,10 @@ RegressionResult SolveRegression(const RegressionRows& rows) {
     return result;
   }
 
-  // Moments, each group's unknown eliminated.
-  const std::vector<GroupMoments> groups = SumGroups(rows);
   MatrixXd moment = MatrixXd::Zero(p, p);
   VectorXd right = VectorXd::Zero(p), squares = VectorXd::Zero(p), squares_z = VectorXd::Zero(p);
   double weight = 0;
   for (std::size_t e = 0; e < count; ++e) {
-    if (!groups.empty() && !groups[static_cast<std::size_t>(rows.group[e])].Solvable()) continue;
     const double w = rows.weight[e];
     const RowMap x = Features(rows, e), z = Instruments(rows, e);
     moment.noalias() += w * z * x.transpose();
@@ -137,11 +88,6 @@ RegressionResult SolveRegression(const RegressionRows& rows) {
     squares += w * x.cwiseAbs2();
     squares_z += w * z.cwiseAbs2();
     weight += w;
-  }
-  for (const GroupMoments& g : groups) {
-    if (!g.Solvable()) continue;
-    moment.noalias() -= g.zn * g.qx.transpose() / g.qn;
-    right -= g.zn * g.qy / g.qn;
   }
   const VectorXd x_rms = (squares / weight).cwiseSqrt(), z_rms = (squares_z / weight).cwiseSqrt();
   for (int k = 0; k < p; ++k) result.feature_rms[static_cast<std::size_t>(k)] = x_rms[k];
@@ -168,36 +114,43 @@ RegressionResult SolveRegression(const RegressionRows& rows) {
   for (int k = 0; k < p; ++k) result.estimate[static_cast<std::size_t>(k)] = theta[k];
 
   // Scores per frame.
-  const std::vector<double> residuals = Residuals(rows, result.estimate);
   MatrixXd scores = MatrixXd::Zero(p, times);
-  std::size_t used = 0;
+  MatrixXd group_scores =
+      MatrixXd::Zero(p, *std::max_element(rows.group.begin(), rows.group.end()) + 1);
+  double squares_u = 0;
   for (std::size_t e = 0; e < count; ++e) {
-    if (std::isnan(residuals[e])) continue;
-    ++used;
-    const double wu = rows.weight[e] * residuals[e];
-    auto score = scores.col(rows.time[e] - first_time);
-    score += wu * Instruments(rows, e);
-    if (groups.empty()) continue;
-    const GroupMoments& g = groups[static_cast<std::size_t>(rows.group[e])];
-    score -= (wu * rows.nuisance_instrument[e] / g.qn) * g.zn;
+    const double u = rows.response[e] - Features(rows, e).dot(theta);
+    const VectorXd score = rows.weight[e] * u * Instruments(rows, e);
+    scores.col(rows.time[e] - first_time) += score;
+    group_scores.col(rows.group[e]) += score;
+    squares_u += rows.weight[e] * u * u;
   }
+  result.residual_sd = std::sqrt(squares_u / weight);
   result.cosines = std::clamp(static_cast<int>(0.4 * std::pow(times, 2.0 / 3.0)), 4, times - 1);
-  const auto unknowns = static_cast<double>(np + groups.size());
-  const double freedom = std::max(1.0, static_cast<double>(used) - unknowns);
-  const double widen = StudentQuantile975(result.cosines) / 1.959963985;
-  const MatrixXd covariance = solve * LongRunCovariance(scores, result.cosines) *
-                              solve.transpose() * (static_cast<double>(used) / freedom) *
-                              (widen * widen);
+  const auto equations = static_cast<double>(count);
+  const auto covariance_of = [&](const MatrixXd& sum, int freedom) {
+    const double widen = StudentQuantile975(freedom) / 1.959963985;
+    return MatrixXd(solve * sum * solve.transpose() *
+                    (equations / (equations - p) * widen * widen));
+  };
+  const MatrixXd covariance =
+      covariance_of(LongRunCovariance(scores, result.cosines), result.cosines);
+  VectorXd variance = covariance.diagonal();
+  const auto groups = static_cast<int>((group_scores.colwise().squaredNorm().array() > 0).count());
+  if (groups >= kMinGroups) {
+    const MatrixXd by_group = covariance_of(group_scores * group_scores.transpose(), groups - 1);
+    variance = variance.cwiseMax(by_group.diagonal());
+  }
   for (int k = 0; k < p; ++k) {
     const auto row = static_cast<std::size_t>(k);
     if (unseen[k] > 1e-6 || x_scale[k] == 0 || z_scale[k] == 0) continue;
-    result.sd[row] = std::sqrt(covariance(k, k));
+    result.sd[row] = std::sqrt(variance[k]);
   }
   for (std::size_t i = 0; i < np; ++i) {
     for (std::size_t j = 0; j < np; ++j) {
       const auto ei = static_cast<Eigen::Index>(i), ej = static_cast<Eigen::Index>(j);
-      const double scale = result.sd[i] * result.sd[j];
-      if (i != j && scale > 0 && std::isfinite(scale)) {
+      const double scale = std::sqrt(covariance(ei, ei) * covariance(ej, ej));
+      if (i != j && scale > 0 && std::isfinite(result.sd[i]) && std::isfinite(result.sd[j])) {
         result.correlation[i * np + j] = std::clamp(covariance(ei, ej) / scale, -1.0, 1.0);
       }
     }

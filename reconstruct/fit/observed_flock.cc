@@ -83,6 +83,12 @@ const std::vector<int>& ObservedFlock::Alive(int frame) const {
   return alive_[static_cast<std::size_t>(frame - span_.first)];
 }
 
+FrameSpan ObservedFlock::Life(int animal) const {
+  const Track& track = tracks_[static_cast<std::size_t>(animal)];
+  if (track.flag.empty()) return {};
+  return {track.first, track.first + static_cast<int>(track.flag.size()) - 1};
+}
+
 const Vec3d& ObservedFlock::Position(int animal, int frame) const {
   FLOCKLIFT_DCHECK(Has(animal, frame));
   const Track& track = tracks_[static_cast<std::size_t>(animal)];
@@ -99,48 +105,75 @@ int ObservedFlock::State::Find(int wanted) const {
   return found != animal.end() && *found == wanted ? static_cast<int>(found - animal.begin()) : -1;
 }
 
-ObservedFlock::State ObservedFlock::Centred(int frame, double engine_step) const {
+Vec3d ObservedFlock::Slope(int animal, int frame) const {
+  const int before = Has(animal, frame - 1) ? 1 : 0, after = Has(animal, frame + 1) ? 1 : 0;
+  if (before + after == 0) return {};
+  return (Position(animal, frame + after) - Position(animal, frame - before)) /
+         static_cast<double>(before + after);
+}
+
+ObservedFlock::State ObservedFlock::Between(int frame, int part, int parts,
+                                            double engine_step) const {
+  const double u = static_cast<double>(part) / parts, w = u - 0.5 * engine_step;
   State state;
   for (const int animal : Alive(frame)) {
-    const bool before = Has(animal, frame - 1), after = Has(animal, frame + 1);
-    if (!before && !after) continue;
-    const Vec3d& x = Position(animal, frame);
-    Vec3d velocity;
-    if (before && after) {
-      const Vec3d& x0 = Position(animal, frame - 1);
+    const bool after = Has(animal, frame + 1), before = Has(animal, frame - 1);
+    if (part == 0 ? !before && !after : !after) continue;
+    const Vec3d& x0 = Position(animal, frame);
+    const Vec3d slope0 = Slope(animal, frame);
+    Vec3d position = x0, velocity = slope0;
+    if (after) {
       const Vec3d& x1 = Position(animal, frame + 1);
-      velocity = (x1 - x0) / (2 * dt_) - (x1 - 2.0 * x + x0) * (0.5 * engine_step / (dt_ * dt_));
-    } else {
-      velocity = (before ? x - Position(animal, frame - 1) : Position(animal, frame + 1) - x) / dt_;
+      const Vec3d slope1 = Slope(animal, frame + 1);
+      // x0 + a t + b t^2 + c t^3
+      const Vec3d b = 3.0 * (x1 - x0) - 2.0 * slope0 - slope1;
+      const Vec3d c = slope0 + slope1 - 2.0 * (x1 - x0);
+      position = x0 + u * (slope0 + u * (b + u * c));
+      velocity = slope0 + w * (2.0 * b + (3 * w) * c);
+    }
+    if (w < 0 && before) {
+      const Vec3d& x1 = Position(animal, frame - 1);
+      const Vec3d slope1 = Slope(animal, frame - 1);  // the same cubic, time reversed
+      const Vec3d b = 3.0 * (x1 - x0) + 2.0 * slope0 + slope1;
+      const Vec3d c = 2.0 * (x0 - x1) - slope0 - slope1;
+      velocity = slope0 - (-w) * (2.0 * b + (3 * -w) * c);
     }
     state.animal.push_back(animal);
-    state.position.push_back(x);
-    state.velocity.push_back(velocity);
+    state.position.push_back(position);
+    state.velocity.push_back(velocity / dt_);
   }
   return state;
 }
 
-ObservedFlock::State ObservedFlock::Past(int frame, int span) const {
+ObservedFlock::State ObservedFlock::Foreseen(int frame, int span, int ahead) const {
   State state;
   for (const int animal : Alive(frame)) {
     int frames = 1;
     while (frames <= span && Has(animal, frame - frames)) ++frames;
     if (frames < 2) continue;
-    // Times 0, -1, .. -(frames - 1): mean -(frames - 1) / 2.
-    Vec3d mean, moment;
-    const double middle = -0.5 * (frames - 1);
-    double squares = 0;
+    // At times t = -(frames - 1) / 2 .. (frames - 1) / 2 the polynomials 1, t and t^2 - s are
+    // orthogonal, s the mean of t^2.
+    const double middle = 0.5 * (frames - 1);
+    double s = 0;
+    for (int k = 0; k < frames; ++k) s += (middle - k) * (middle - k) / frames;
+    Vec3d mean, slope, curve;
+    double slope_square = 0, curve_square = 0;
     for (int k = 0; k < frames; ++k) {
       const Vec3d& x = Position(animal, frame - k);
+      const double t = middle - k, q = t * t - s;
       mean += x;
-      moment += (-k - middle) * x;
-      squares += (-k - middle) * (-k - middle);
+      slope += t * x;
+      curve += q * x;
+      slope_square += t * t;
+      curve_square += q * q;
     }
     mean = mean / static_cast<double>(frames);
-    const Vec3d slope = moment / squares;  // a frame
+    slope = slope / slope_square;
+    curve = frames > 2 ? curve / curve_square : Vec3d{};
+    const double t = middle + ahead;
     state.animal.push_back(animal);
-    state.position.push_back(mean - middle * slope);
-    state.velocity.push_back(slope / dt_);
+    state.position.push_back(mean + t * slope + (t * t - s) * curve);
+    state.velocity.push_back((slope + (2 * t) * curve) / dt_);
   }
   return state;
 }

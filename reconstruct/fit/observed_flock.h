@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Trajectories as a regression needs them: positions by animal and frame with short gaps bridged,
-// and two estimates of the flock's state at a frame, from positions alone (dt = 1 / fps):
-//   centred  x = x_k,  v = (x_{k+1} - x_{k-1}) / (2 dt) - (h / 2) (x_{k+1} - 2 x_k + x_{k-1}) /
-//   dt^2
-//            where h is the step of a semi-implicit Euler engine, x_{n+1} = x_n + h v_{n+1}, whose
-//            velocity belongs half a step before its position; h = 0 for continuous time
-//   past     the straight line of least squares through frames k - span .. k, at frame k: it knows
-//            nothing of later frames
+// and two estimates of the flock's state, from positions alone (dt = 1 / fps, t in frames):
+//   between   the cubic on [k, k + 1] through the positions, with slopes (x_{k+1} - x_{k-1}) / 2;
+//             the velocity at t is the cubic's slope half an engine's step before t, because the
+//             semi-implicit Euler engine has x_{n+1} = x_n + h v_{n+1}
+//   foreseen  the parabola of least squares through frames k - span .. k, continued to a later one:
+//             it knows nothing after frame k
 // World frame, metres, seconds.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_OBSERVED_FLOCK_H_
@@ -38,6 +37,8 @@ class ObservedFlock {
   FrameSpan span() const { return span_; }
   int animals() const { return static_cast<int>(tracks_.size()); }
   double dt() const { return dt_; }
+  FrameSpan Life(int animal) const;  // its first and last frame; {0, -1} when it has none
+  int Count(int frame) const { return static_cast<int>(Alive(frame).size()); }
 
   // Is there a position (Has), and was it in the file, not bridged (Measured)?
   bool Has(int animal, int frame) const { return Flag(animal, frame) != 0; }
@@ -45,10 +46,11 @@ class ObservedFlock {
   const Vec3d& Position(int animal, int frame) const;
   double SdDepth(int animal, int frame) const;  // 0 where bridged
 
-  // An animal at the end of a run of frames has the velocity of its last two; one that is alone in
-  // its run is left out.
-  State Centred(int frame, double engine_step) const;
-  State Past(int frame, int span) const;
+  // At frame + part / parts, 0 <= part < parts; `engine_step` in frames. At the end of a run of
+  // frames slopes are one-sided; an animal alone in its run is left out.
+  State Between(int frame, int part, int parts, double engine_step) const;
+  // With two frames of the span there, the straight line through them.
+  State Foreseen(int frame, int span, int ahead) const;
 
  private:
   static constexpr std::uint8_t kBridged = 1, kMeasured = 2;
@@ -59,6 +61,7 @@ class ObservedFlock {
     std::vector<double> sd_depth;  // empty when the file has none
   };
   std::uint8_t Flag(int animal, int frame) const;
+  Vec3d Slope(int animal, int frame) const;        // [m/frame]; 0 without a neighbouring frame
   const std::vector<int>& Alive(int frame) const;  // animals whose tracks span the frame
 
   double dt_;

@@ -78,35 +78,6 @@ TEST(LaggedRegression, IsLeastSquaresWhenInstrumentsAreTheFeatures) {
   EXPECT_LT(result.condition, 10);
 }
 
-TEST(LaggedRegression, EliminatesAnUnknownPerGroupAsDummyVariablesWould) {
-  RegressionRows rows;
-  Rng rng(11);
-  constexpr int kGroups = 6;
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(240, 2 + kGroups);
-  Eigen::VectorXd y(240);
-  for (int e = 0; e < 240; ++e) {
-    const int g = e % kGroups;
-    const double nuisance = 1 + 0.3 * rng.Normal();
-    x(e, 0) = rng.Normal() + g;
-    x(e, 1) = rng.Normal() - nuisance;
-    x(e, 2 + g) = nuisance;
-    y[e] = 1.5 * x(e, 0) - 0.7 * x(e, 1) + (g - 2.0) * nuisance + 0.2 * rng.Normal();
-    const std::vector<double> row = {x(e, 0), x(e, 1)};
-    Add(&rows, e / kGroups, g, y[e], row, row);
-    rows.nuisance.push_back(nuisance);
-    rows.nuisance_instrument.push_back(nuisance);
-  }
-  const RegressionResult result = SolveRegression(rows);
-  const Eigen::VectorXd expected = x.colPivHouseholderQr().solve(y);
-  EXPECT_NEAR(result.estimate[0], expected[0], 1e-10);
-  EXPECT_NEAR(result.estimate[1], expected[1], 1e-10);
-  const std::vector<double> residuals = Residuals(rows, result.estimate);
-  const Eigen::VectorXd expected_residuals = y - x * expected;
-  for (int e = 0; e < 240; ++e) {
-    EXPECT_NEAR(residuals[static_cast<std::size_t>(e)], expected_residuals[e], 1e-9);
-  }
-}
-
 TEST(LaggedRegression, InstrumentsFromThePastRemoveTheBiasOfPlainDifferences) {
   constexpr int kSeeds = 60;
   for (const double noise : {0.0, 0.02}) {
@@ -160,6 +131,23 @@ TEST(LaggedRegression, ErrorsCommonToTheFlockWidenTheIntervals) {
   EXPECT_LT(common, 6 * own);  // sqrt(20) = 4.5
 }
 
+TEST(LaggedRegression, ErrorsThatStayWithAnAnimalWidenTheIntervals) {
+  double changing = 0, staying = 0;
+  for (const bool stay : {false, true}) {
+    RegressionRows rows;
+    for (int t = 0; t < 300; ++t) {
+      for (int i = 0; i < 20; ++i) {
+        Rng animal(4, static_cast<std::uint64_t>(i));
+        Rng rng(5, static_cast<std::uint64_t>(i), static_cast<std::uint32_t>(t));
+        const double x = animal.Normal(), own_u = animal.Normal();
+        Add(&rows, t, i, x + (stay ? own_u : rng.Normal()), {x}, {x});
+      }
+    }
+    (stay ? staying : changing) = SolveRegression(rows).sd[0];
+  }
+  EXPECT_GT(staying, 8 * changing);  // sqrt(300) = 17
+}
+
 TEST(LaggedRegression, SaysWhatTheDataDoNotDetermine) {
   RegressionRows rows;
   Rng rng(5);
@@ -182,7 +170,7 @@ TEST(LaggedRegression, TooLittleDataIsAStatus) {
   RegressionRows rows;
   for (int e = 0; e < 8; ++e) Add(&rows, e, 0, 1, {1.0 + e}, {1.0 + e});
   EXPECT_EQ(SolveRegression(rows).status, RegressionStatus::kTooFewRows);
-  for (int e = 8; e < 80; ++e) Add(&rows, 8 + e / 40, e, 1, {1.0 + e}, {1.0 + e});
+  for (int e = 8; e < 80; ++e) Add(&rows, 8 + e / 40, 0, 1, {1.0 + e}, {1.0 + e});
   EXPECT_EQ(SolveRegression(rows).status, RegressionStatus::kTooFewTimes);
 }
 

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What made a flock move: the weights of a model's force terms, from positions alone.
+//   acceleration = sum_p theta_p f_p(state) + what is known + c_i v/|v| + u
+// f_p by the simulator's own templated terms (flock_terms.h), accelerations as second differences
+// with the terms averaged under the same window (motion_rows.h). Taking both from the same frames
+// biases least squares towards 0 without end, so the moments use instruments from earlier frames,
+// and what the model leaves over may last (whitened_rows.h). Standard errors allow errors in common
+// between animals and autocorrelation (lagged_regression.h).
+// Radii and tapers are given, not fitted. World frame, z up; metres, seconds.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_FIT_FIT_H_
+#define FLOCKLIFT_RECONSTRUCT_FIT_FIT_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulate/camera/camera.h"
+#include "simulate/core/parameters.h"
+#include "simulate/core/progress.h"
+#include "simulate/core/trajectory.h"
+
+namespace flocklift {
+
+struct FitOptions {
+  int window = 0;               // m of motion_rows.h [frames]; 0: chosen from the data
+  double longest_window = 0.5;  // when it is chosen [s]
+  int substeps = 4;             // steps a frame of the engine that the weights are for; 0: infinite
+  int bridged_gap = 5;          // missing frames that neighbours are interpolated over
+  double held_out = 0.2;        // share of the time, at its end, that the prediction is scored on
+  int max_rows = 200000;        // more animals and frames are thinned to every n-th frame
+  bool plain = false;           // ordinary least squares, which is biased; for comparison
+  int depth_draws = 6;          // refits with depth errors added, when the input states them
+  double depth_error_time = 2;  // for how long a depth error lasts [s]
+  double scale_sd = 0;          // relative sd of the common scale in sd_depth
+};
+
+template <typename Visitor>
+void Describe(Visitor& visit, FitOptions& o) {
+  visit("window", o.window, {.low = 0, .high = 10000}, "frames",
+        "half width of the window accelerations are taken over; 0: chosen from the data");
+  visit("longest-window", o.longest_window, {.low = 0}, "s", "longest window that is chosen");
+  visit("substeps", o.substeps, {.low = 0, .high = 1000}, "",
+        "steps a frame of the engine that the weights are for; 0: continuous time");
+  visit("bridged-gap", o.bridged_gap, {.low = 0, .high = 1000}, "frames",
+        "gaps of up to so many frames are interpolated for the neighbours' sake");
+  visit("held-out", o.held_out, {.low = 0, .high = 0.9}, "",
+        "share of the time, at its end, that the prediction is scored on");
+  visit("max-rows", o.max_rows, {.low = 100}, "",
+        "more animals and frames than this are thinned to every n-th frame");
+  visit("plain", o.plain, {}, "", "ordinary least squares, which is biased: for comparison only");
+  visit("depth-draws", o.depth_draws, {.low = 0, .high = 1000}, "",
+        "refits with depth errors added, when the input states them");
+  visit("depth-error-time", o.depth_error_time, {.low = 1e-3}, "s",
+        "for how long a depth error lasts");
+  visit("scale-sd", o.scale_sd, {.low = 0, .high = 10}, "",
+        "relative sd of the common scale, which sd_depth includes");
+}
+
+// What to fit: the model with values for all that is not free (defaults where it says nothing).
+struct FitProblem {
+  ModelSpec model;
+  std::vector<std::string> free;  // empty: every weight that the data can speak of
+  std::optional<Region> walls;    // the box of the boundary term; without it the term is left out
+  std::optional<Camera> camera;   // where depth errors point; absent: eye at the world's origin
+};
+
+struct FittedWeight {
+  std::string name;
+  double value = 0;     // as written: within the model's legal range
+  double estimate = 0;  // free of that bound
+  double sd = 0;        // of the estimate; infinite when nothing is known
+  bool determined = false;
+  double plain = 0;  // ordinary least squares, biased, for comparison
+  // Factor by which another depth error of the stated size changes the estimate, and its sd.
+  std::optional<double> depth_factor, depth_factor_sd;
+};
+
+// An eigenvector of the weights' covariance, each weight in units of the term's share of the
+// acceleration; `sd` [m/s^2].
+struct FitDirection {
+  std::vector<double> weights;
+  double sd = 0;
+};
+
+enum class FitStatus {
+  kOk,
+  kTooFewAnimals,  // no animal
+  kTooFewFrames,   // runs of frames are too short for the window
+  kTooFewRows,     // too few equations for the number of weights
+};
+std::string StatusText(FitStatus status);
+
+struct FitResult {
+  FitStatus status = FitStatus::kOk;
+  Parameters parameters;              // of the model, the posterior over the weights
+  std::vector<FittedWeight> weights;  // in the order of posterior.free
+  int animals = 0, frames = 0;
+  std::int64_t rows = 0;              // animals times frames used
+  std::int64_t rows_clamped = 0;      // of these, whose speed limit acted
+  std::int64_t rows_mixed = 0;        // left out: it acted in part of the window
+  int window = 0;                     // m [frames]
+  double acceleration_sd = 0;         // without the model: constant velocity [m/s^2]
+  double residual_sd = 0;             // with it
+  double r2 = 0;                      // share explained, in sample
+  std::optional<double> r2_held_out;  // of accelerations after the fit's time, from earlier states
+  double noise_sd = 0;                // of what is not explained and lasts [m/s^2]
+  double noise_time = 0;              // its correlation time [s]; 0: fresh at every step
+  double diffusion = 0;               // of the velocity, when noise_time is 0 [m^2/s^3]
+  double own_speed_mean = 0, own_speed_sd = 0;  // the animals' cruising speeds, if any [m/s]
+  double condition = 0;                         // of the moment matrix, terms scaled to unit rms
+  FitDirection best, worst;
+  std::vector<std::string> warnings;  // one sentence each
+
+  bool IsUsable() const { return status == FitStatus::kOk; }
+};
+
+// Deterministic in options, problem, data and seed, at any number of threads. Throws InputError for
+// a model or weight that does not exist, std::invalid_argument for options out of range.
+FitResult FitModel(const FitOptions& options, const FitProblem& problem,
+                   const Trajectories& trajectories, double fps, std::uint64_t seed, int threads,
+                   const Progress& progress = {});
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_FIT_FIT_H_

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/fit/flock_terms.h"
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
+#include "simulate/core/check.h"
+#include "simulate/core/suggest.h"
+#include "simulate/flock/cell_grid.h"
+#include "simulate/flock/model.h"
+#include "simulate/forces/linear.h"
+
+namespace flocklift {
+namespace {
+
+// Which column a weight's term goes to and by how much: its own with the factor of a unit weight
+// when it is free, otherwise "known" with its value.
+struct Slot {
+  std::size_t column = 0;
+  double gain = 0;
+};
+
+Slot SlotOf(const std::vector<std::string>& free, const std::string& name, double unit,
+            double value) {
+  const auto found = std::find(free.begin(), free.end(), name);
+  if (found == free.end()) return {free.size(), value};
+  return {static_cast<std::size_t>(found - free.begin()), unit};
+}
+
+class BoidsTerms {
+ public:
+  BoidsTerms(const BoidsParameters<double>& given, const std::vector<std::string>& free,
+             const std::optional<Region>& walls)
+      : parameters_(InSeconds(given)), columns_(free.size() + 2), walls_(walls) {
+    BoidsParameters<double> ones = given;
+    ones.alpha_s = ones.alpha_c = ones.alpha_a = ones.alpha_b = ones.cruise = ones.level = 1;
+    const BoidsParameters<double> unit = InSeconds(ones);
+    separation_ = SlotOf(free, "alpha_s", unit.alpha_s, parameters_.alpha_s);
+    cohesion_ = SlotOf(free, "alpha_c", unit.alpha_c, parameters_.alpha_c);
+    alignment_ = SlotOf(free, "alpha_a", unit.alpha_a, parameters_.alpha_a);
+    boundary_ = SlotOf(free, "alpha_b", unit.alpha_b, parameters_.alpha_b);
+    cruise_ = SlotOf(free, "cruise", unit.cruise, parameters_.cruise);
+    level_ = SlotOf(free, "level", unit.level, parameters_.level);
+  }
+
+  void operator()(std::span<const Vec3d> x, std::span<const Vec3d> v, std::span<Vec3d> out) const {
+    std::fill(out.begin(), out.end(), Vec3d{});
+    AddPairs(x, v, out);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      Vec3d* const row = &out[i * columns_];
+      if (walls_) {
+        row[boundary_.column] += Boundary::At(
+            {boundary_.gain, walls_->low, walls_->high, parameters_.wall_taper}, x[i], v[i]);
+      }
+      row[cruise_.column] += CruiseSpeed::At({cruise_.gain, 0.0}, x[i], v[i]);
+      row[level_.column] += Level::At({level_.gain}, x[i], v[i]);
+      row[columns_ - 1] =
+          CruiseSpeed::At({1.0, 1.0}, x[i], v[i]) - CruiseSpeed::At({1.0, 0.0}, x[i], v[i]);
+    }
+  }
+
+ private:
+  void AddPairs(std::span<const Vec3d> x, std::span<const Vec3d> v, std::span<Vec3d> out) const {
+    Bodies<double> unsorted, sorted;
+    unsorted.Resize(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      unsorted.Set(i, x[i], v[i]);
+      unsorted.agent[i] = static_cast<std::uint32_t>(i);
+    }
+    CellGrid<double> grid;
+    const double reach = Reach(parameters_);
+    grid.Sort(unsorted, reach, &sorted);
+    const auto pairs = MakeBoidsPairs<double>(parameters_, parameters_.taper);
+    const auto view = grid.view();
+    for (int row = 0; row < view.RowCount(); ++row) {
+      const int b = 1 + row % view.ny, c = 1 + row / view.ny;
+      for (int a = 1; a <= view.nx; ++a) {
+        const std::uint32_t begin = view.start[view.Cell(a, b, c)];
+        const std::uint32_t end = view.start[view.Cell(a, b, c) + 1];
+        for (std::uint32_t i = begin; i < end; ++i) {
+          BoidsPairs<double>::Sums sums;
+          const Vec3d xi = sorted.Position(i), vi = sorted.Velocity(i);
+          CellGrid<double>::ForEachRun(view, a, a, b, c,
+                                       [&](std::uint32_t first, std::uint32_t last) {
+                                         for (std::uint32_t j = first; j < last; ++j) {
+                                           const Vec3d dx = sorted.Position(j) - xi;
+                                           if (j == i || SquaredNorm(dx) > reach * reach) continue;
+                                           sums += pairs.Pair(dx, sorted.Velocity(j) - vi);
+                                         }
+                                       });
+          Vec3d* const to = &out[sorted.agent[i] * columns_];
+          auto p = pairs;
+          p.separation.gain = separation_.gain;
+          p.cohesion.gain = cohesion_.gain;
+          p.alignment.gain = alignment_.gain;
+          to[separation_.column] += Separation::Finish(p.separation, sums.separation);
+          to[cohesion_.column] += Cohesion::Finish(p.cohesion, sums.cohesion);
+          to[alignment_.column] += Alignment::Finish(p.alignment, sums.alignment);
+        }
+      }
+    }
+  }
+
+  BoidsParameters<double> parameters_;  // in seconds
+  std::size_t columns_;
+  std::optional<Region> walls_;
+  Slot separation_, cohesion_, alignment_, boundary_, cruise_, level_;
+};
+
+class LinearTerms {
+ public:
+  LinearTerms(const LinearParameters<double>& given, const std::vector<std::string>& free)
+      : columns_(free.size() + 2),
+        cohesion_(SlotOf(free, "cohesion", 1, given.cohesion)),
+        alignment_(SlotOf(free, "alignment", 1, given.alignment)) {}
+
+  void operator()(std::span<const Vec3d> x, std::span<const Vec3d> v, std::span<Vec3d> out) const {
+    std::fill(out.begin(), out.end(), Vec3d{});
+    const LinearCohesion::Params<double> cohesion{cohesion_.gain};
+    const LinearAlignment::Params<double> alignment{alignment_.gain};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      Weighted<double> offsets, differences;
+      for (std::size_t j = 0; j < x.size(); ++j) {
+        if (j == i) continue;
+        offsets += LinearCohesion::Pair(cohesion, x[j] - x[i], v[j] - v[i]);
+        differences += LinearAlignment::Pair(alignment, x[j] - x[i], v[j] - v[i]);
+      }
+      out[i * columns_ + cohesion_.column] += LinearCohesion::Finish(cohesion, offsets);
+      out[i * columns_ + alignment_.column] += LinearAlignment::Finish(alignment, differences);
+    }
+  }
+
+ private:
+  std::size_t columns_;
+  Slot cohesion_, alignment_;
+};
+
+std::vector<std::string> WeightsOf(const BoidsParameters<double>&) {
+  return {"alpha_s", "alpha_c", "alpha_a", "alpha_b", "cruise", "level"};
+}
+std::vector<std::string> WeightsOf(const LinParameters<double>&) { return {}; }
+std::vector<std::string> WeightsOf(const LinearParameters<double>&) {
+  return {"cohesion", "alignment"};
+}
+
+}  // namespace
+
+std::vector<std::string> LinearWeights(const std::string& model) {
+  ModelSpec spec;
+  spec.name = model;
+  return std::visit([](const auto& p) { return WeightsOf(p); }, ResolveModel(spec));
+}
+
+FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>& free,
+                          const std::optional<Region>& walls) {
+  const ModelParameters resolved = ResolveModel(model);
+  const std::vector<std::string> weights = LinearWeights(model.name);
+  for (const std::string& name : free) {
+    if (std::find(weights.begin(), weights.end(), name) != weights.end()) continue;
+    throw InputError(model.where, 0, "`" + name + "` of model " + model.name + " cannot be freed",
+                     SuggestName(name, weights));
+  }
+  FlockTerms terms;
+  terms.free = free;
+  if (const auto* boids = std::get_if<BoidsParameters<double>>(&resolved)) {
+    const BoidsParameters<double> seconds = InSeconds(*boids);
+    terms.has_own_speed =
+        boids->cruise > 0 || std::find(free.begin(), free.end(), "cruise") != free.end();
+    terms.min_speed = seconds.s_min;
+    terms.max_speed = seconds.s_max;
+    terms.evaluate = BoidsTerms(*boids, free, walls);
+  } else if (const auto* linear = std::get_if<LinearParameters<double>>(&resolved)) {
+    terms.evaluate = LinearTerms(*linear, free);
+  } else {
+    throw InputError(model.where, 0, "model " + model.name + " has no accelerations to regress",
+                     "fit boids, boids2d or linear");
+  }
+  return terms;
+}
+
+}  // namespace flocklift

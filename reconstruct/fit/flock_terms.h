@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A model's right-hand side, taken apart into what is linear in its weights:
+//   a_i = sum_p theta_p f_p(i) + known(i) + c_i g(i)
+// f_p is the term of weight p with weight 1, `known` the terms whose weights are given, and c_i an
+// unknown of each animal: cruise times its own cruising speed, g = v/|v|. All by the same templated
+// terms that the simulator runs.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_FIT_FLOCK_TERMS_H_
+#define FLOCKLIFT_RECONSTRUCT_FIT_FLOCK_TERMS_H_
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulate/core/scene.h"
+
+namespace flocklift {
+
+struct FlockTerms {
+  std::vector<std::string> free;  // the p weights, by their names in the model
+  bool has_own_speed = false;     // is there a c_i?
+  double min_speed = 0;           // of the model's clamp [m/s]
+  double max_speed = std::numeric_limits<double>::infinity();
+  // Fills `out`, n x (p + 2): f_1 .. f_p, known, g; accelerations [m/s^2] of the animals at
+  // positions x with velocities v. Safe to call from several threads.
+  std::function<void(std::span<const Vec3d> x, std::span<const Vec3d> v, std::span<Vec3d> out)>
+      evaluate;
+
+  std::size_t columns() const { return free.size() + 2; }
+};
+
+// The weights of a model that FitModel can free. Empty for a model that moves positions directly.
+std::vector<std::string> LinearWeights(const std::string& model);
+
+// `model` gives every value that is not free, `walls` the box of the boundary term (without it the
+// term is left out, and so must be its weight). Throws InputError for a name that is no weight of
+// the model.
+FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>& free,
+                          const std::optional<Region>& walls);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_FIT_FLOCK_TERMS_H_
