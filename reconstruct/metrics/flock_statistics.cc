@@ -123,4 +123,26 @@ std::vector<FlockStatistics> ComputeFlockStatistics(const StatesByFrame& states,
   return all;
 }
 
+StepStatistics ComputeSteps(const Trajectories& trajectories, double fps) {
+  Check(fps > 0, "fps must be positive to compute the speed of a step");
+  std::vector<double> speeds;
+  for (const Trajectory& trajectory : trajectories.trajectories) {
+    for (std::size_t k = 1; k < trajectory.points.size(); ++k) {
+      const TrajectoryPoint &from = trajectory.points[k - 1], &to = trajectory.points[k];
+      speeds.push_back(Norm(to.position - from.position) * fps / (to.frame - from.frame));
+    }
+  }
+  StepStatistics steps;
+  if (speeds.empty()) return steps;
+  std::sort(speeds.begin(), speeds.end());
+  steps.steps = speeds.size();
+  steps.median = QuantileOfSorted(speeds, 0.5);
+  steps.p99 = QuantileOfSorted(speeds, 0.99);
+  steps.largest = speeds.back();
+  steps.jumps = static_cast<std::size_t>(
+      speeds.end() -
+      std::upper_bound(speeds.begin(), speeds.end(), StepStatistics::kJump * steps.median));
+  return steps;
+}
+
 }  // namespace flocklift

@@ -49,6 +49,16 @@ class StatesByFrame {
 // Every `stride`-th frame that has an animal, by increasing frame.
 std::vector<FlockStatistics> ComputeFlockStatistics(const StatesByFrame& states, int stride = 1);
 
+// Steps from one row of an animal to its next, as the speed they would need: where a path jumps,
+// it shows here, whatever the velocities of the file say.
+struct StepStatistics {
+  std::size_t steps = 0;
+  double median = 0, p99 = 0, largest = 0;  // [m/s]
+  std::size_t jumps = 0;                    // steps of more than kJump times the median
+  static constexpr double kJump = 3;
+};
+StepStatistics ComputeSteps(const Trajectories& trajectories, double fps);
+
 }  // namespace flocklift
 
 #endif  // FLOCKLIFT_RECONSTRUCT_METRICS_FLOCK_STATISTICS_H_

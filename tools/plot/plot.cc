@@ -223,7 +223,7 @@ Plot::Frame Plot::MakeFrame() const {
     frame.x = {x.low - pad_x, x.high + pad_x};
     frame.y = {y.low - pad_y, y.high + pad_y};
   } else {
-    const int rows = std::max(2, static_cast<int>(options_.height / 48));
+    const int rows = std::max(4, static_cast<int>(options_.height / 48));
     frame.y = NiceRange(options_.y_low.value_or(y.low), options_.y_high.value_or(y.high), rows);
     if (options_.y_low) frame.y.low = *options_.y_low;
     if (options_.y_high) frame.y.high = *options_.y_high;
@@ -259,8 +259,8 @@ Plot::Frame Plot::MakeFrame() const {
 
 void Plot::AppendAxes(const Frame& frame, std::string* svg) const {
   const double right = frame.left + frame.width, bottom = frame.top + frame.height;
-  const int columns = std::max(2, static_cast<int>(frame.width / 80));
-  const int rows = std::max(2, static_cast<int>(frame.height / 40));
+  const int columns = std::max(4, static_cast<int>(frame.width / 80));
+  const int rows = std::max(3, static_cast<int>(frame.height / 40));
   Ticks x = NiceTicks(frame.x.low, frame.x.high, columns);
   Ticks y = NiceTicks(frame.y.low, frame.y.high, rows);
   if (options_.equal_axes && x.step != y.step) {  // one grid of squares, where it has enough rows

@@ -58,6 +58,19 @@ std::string SpeedHistogram(const ReportData& data) {
   return plot.Svg();
 }
 
+std::string StepsText(const RunFolder& run) {
+  const StepStatistics steps = ComputeSteps(*run.trajectories, *run.fps);
+  std::string text = fmt::format(
+      "From one frame to the next the animals move as fast as {} m/s in the median; 99 % of the "
+      "steps are below {} m/s, the largest is {} m/s. ",
+      NumberText(steps.median), NumberText(steps.p99), NumberText(steps.largest));
+  if (steps.jumps == 0) return text + "No path jumps.";
+  return text + fmt::format(
+                    "{} of {} steps are more than {} times the median: there a path jumps, "
+                    "as it does where a track was cut or an identity was confused.",
+                    steps.jumps, steps.steps, NumberText(StepStatistics::kJump));
+}
+
 // One figure of the flock over time: median and 80 % band, and the truth's median.
 template <typename Low, typename Middle, typename High>
 std::string OverTime(const ReportData& data, PlotOptions options, std::size_t color, Low low,
@@ -99,6 +112,7 @@ void AddFlockSection(const ReportData& data, Page* page, Missing* missing) {
     return;
   }
   page->BeginSection("flock", "How the flock moves");
+  page->AddText(StepsText(data.run));
   const auto or_nan = [](const std::optional<double>& value) { return value.value_or(kNan); };
   const std::string truth_note =
       data.true_flock.empty() ? "" : " Dashed: the truth, animals outside the picture included.";
@@ -118,8 +132,8 @@ void AddFlockSection(const ReportData& data, Page* page, Missing* missing) {
           [&](const auto& m) { return or_nan(m.neighbour_low); },
           [&](const auto& m) { return or_nan(m.neighbour_median); },
           [&](const auto& m) { return or_nan(m.neighbour_high); }),
-      "Distance from each animal to the nearest other one, in space. Errors of depth make it "
-      "larger than it was." +
+      "Distance from each animal to the nearest other one, in space. Errors of depth change it "
+      "more than any other figure here." +
           truth_note);
   page->AddFigure(
       OverTime(

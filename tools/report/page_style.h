@@ -64,7 +64,7 @@ figcaption { margin-top: 8px; color: var(--muted); font-size: 13.5px; max-width:
 .grid4 > figure { padding: 10px 10px 6px; }
 .cards {
   display: grid; gap: 12px; margin-bottom: 18px;
-  grid-template-columns: repeat(auto-fill, minmax(190px, 1fr));
+  grid-template-columns: repeat(auto-fill, minmax(165px, 1fr));
 }
 .card {
   background: var(--panel); border: 1px solid var(--line); border-radius: 8px;
@@ -80,7 +80,6 @@ th, td { padding: 4px 18px 4px 0; text-align: right; border-bottom: 1px solid va
   vertical-align: top; }
 th { color: var(--muted); font-weight: 500; }
 th:first-child, td:first-child { text-align: left; }
-.words td { text-align: left; overflow-wrap: anywhere; }
 tbody tr:last-child td { border-bottom: 0; }
 .bars {
   display: grid; grid-template-columns: max-content 1fr max-content; gap: 6px 14px;

@@ -73,6 +73,8 @@ void AddPictureSection(const ReportData& data, Page* page, Missing* missing) {
 
   std::string trails, rings, labels;
   const double unit = std::max(picture->width, picture->height) / 1600.0;
+  const double rightmost = picture->width - 40 * unit;  // of a label that stays in the picture
+  const double lowest = picture->height - 6 * unit;
   std::size_t animals = 0, interpolated = 0;
   for (const Tracklet& tracklet : run.tracks->tracklets) {
     const auto& rows = tracklet.detections;
@@ -103,7 +105,8 @@ void AddPictureSection(const ReportData& data, Page* page, Missing* missing) {
         is_measured ? "" : " stroke-dasharray=\"4 3\"");
     labels +=
         fmt::format("<text x=\"{}\" y=\"{}\" fill=\"{}\" style=\"font-size:{:.0f}px\">{}</text>",
-                    Coordinate(at.x + radius + 3 * unit), Coordinate(at.y - 0.5 * radius), color,
+                    Coordinate(std::min(at.x + radius + 3 * unit, rightmost)),
+                    Coordinate(std::clamp(at.y - 0.5 * radius, 16 * unit, lowest)), color,
                     15 * unit, tracklet.id);
     ++animals;
     if (!is_measured) ++interpolated;

@@ -74,7 +74,7 @@ void AddScaleSection(const ReportData& data, Page* page, Missing* missing) {
   if (!method.empty()) cards.push_back({method, "Method", ""});
   if (!cards.empty()) page->AddCards(cards);
   const std::string observability = Words(run.Figure("reconstruct", "observability"));
-  if (!observability.empty()) page->AddText("What relative depth rests on: " + observability);
+  if (!observability.empty()) page->AddText("Observability: " + observability);
 
   const Json figures = summary->value("figures", Json::object());
   if (!figures.is_object() || figures.empty()) return;

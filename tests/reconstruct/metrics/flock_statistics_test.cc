@@ -82,5 +82,26 @@ TEST(FlockStatistics, FrameByFrame) {
   EXPECT_EQ(ComputeFlockStatistics(states, 2).size(), 1u);
 }
 
+TEST(FlockStatistics, StepsShowWhereAPathJumps) {
+  // 1 m a frame at 10 frames/s for 20 frames, a gap of 2 frames crossed at the same speed, and one
+  // jump of 5 m.
+  Trajectory trajectory{1, {}};
+  double x = 0;
+  for (int frame = 1; frame <= 23; ++frame) {
+    x += frame == 12 ? 5 : 1;
+    if (frame == 20 || frame == 21) continue;
+    trajectory.points.push_back(At(frame, {x, 0, 0}, {}));
+  }
+  Trajectories flock;
+  flock.trajectories = {trajectory};
+  const StepStatistics steps = ComputeSteps(flock, 10);
+  EXPECT_EQ(steps.steps, 20u);
+  EXPECT_DOUBLE_EQ(steps.median, 10);
+  EXPECT_DOUBLE_EQ(steps.largest, 50);
+  EXPECT_EQ(steps.jumps, 1u);
+  EXPECT_EQ(ComputeSteps({}, 10).steps, 0u);
+  EXPECT_THROW(ComputeSteps(flock, 0), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace flocklift
