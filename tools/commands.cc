@@ -5,9 +5,13 @@
 
 #include "tools/calibrate_command.h"
 #include "tools/camera_command.h"
+#include "tools/demo_command.h"
 #include "tools/evaluate_command.h"
+#include "tools/fit_command.h"
 #include "tools/reconstruct_command.h"
+#include "tools/replay_command.h"
 #include "tools/report_command.h"
+#include "tools/run_command.h"
 #include "tools/simulate_command.h"
 #include "tools/track_command.h"
 
@@ -15,12 +19,16 @@ namespace flocklift {
 
 void AddCommands(CLI::App& app) {
   AddSimulateCommand(app);
-  AddCameraCommand(app);
-  AddCalibrateCommand(app);
   AddTrackCommand(app);
   AddReconstructCommand(app);
+  AddFitCommand(app);
+  AddReplayCommand(app);
   AddEvaluateCommand(app);
   AddReportCommand(app);
+  AddRunCommand(app);
+  AddDemoCommand(app);
+  AddCameraCommand(app);
+  AddCalibrateCommand(app);
 }
 
 }  // namespace flocklift

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tools/fit_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "simulate/camera/camera_io.h"
+#include "simulate/core/check.h"
+#include "simulate/core/io.h"
+#include "simulate/core/parameters.h"
+#include "simulate/core/text.h"
+#include "tools/stage.h"
+
+namespace flocklift {
+namespace {
+
+ModelSpec ModelOf(const FitCommand& command) {
+  ModelSpec model;
+  if (!command.start.empty()) model = ReadParameters(command.start).model;
+  model.name = command.model;
+  for (const std::string& text : command.set) {
+    const auto equals = text.find('=');
+    const std::optional<double> value = equals == std::string::npos
+                                            ? std::nullopt
+                                            : ParseReal(std::string_view(text).substr(equals + 1));
+    Check(value.has_value(), "--set " + text + " is not NAME=VALUE");
+    model.parameters[text.substr(0, equals)] = *value;
+  }
+  return model;
+}
+
+nlohmann::ordered_json NumberOrNull(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json WeightAsJson(const FittedWeight& weight) {
+  nlohmann::ordered_json json = {{"name", weight.name},
+                                 {"value", weight.value},
+                                 {"estimate", NumberOrNull(weight.estimate)},
+                                 {"sd", NumberOrNull(weight.sd)},
+                                 {"determined", weight.determined},
+                                 {"plain_least_squares", NumberOrNull(weight.plain)}};
+  if (weight.depth_factor) json["depth_error_factor"] = NumberOrNull(*weight.depth_factor);
+  if (weight.depth_factor_sd) json["depth_error_factor_sd"] = NumberOrNull(*weight.depth_factor_sd);
+  return json;
+}
+
+nlohmann::ordered_json AsJson(const FitResult& result) {
+  nlohmann::ordered_json json = {{"animals", result.animals},
+                                 {"frames", result.frames},
+                                 {"rows", result.rows},
+                                 {"rows_clamped", result.rows_clamped},
+                                 {"window", result.window},
+                                 {"acceleration_sd", result.acceleration_sd},
+                                 {"residual_sd", result.residual_sd},
+                                 {"r2", result.r2},
+                                 {"noise_sd", NumberOrNull(result.noise_sd)},
+                                 {"noise_time", NumberOrNull(result.noise_time)},
+                                 {"condition", NumberOrNull(result.condition)}};
+  if (result.r2_held_out) json["r2_held_out"] = *result.r2_held_out;
+  for (const FittedWeight& weight : result.weights) {
+    json["weights"].push_back(WeightAsJson(weight));
+  }
+  return json;
+}
+
+}  // namespace
+
+void RunFit(const FitCommand& command, const CommonOptions& common) {
+  Stage stage("fit", common);
+  stage.options() = {{"model", command.model}, {"free", command.free}, {"set", command.set}};
+  stage.options()["fit"] = OptionsAsJson(command.fit);
+  stage.options()["seed"] = common.seed;
+  if (common.fps) stage.options()["fps"] = *common.fps;
+  RequireFile(command.trajectories, "give the file that `flocklift reconstruct` wrote");
+  stage.AddInput(command.trajectories);
+  FitProblem problem;
+  problem.free = command.free;
+  if (!command.start.empty()) stage.AddInput(command.start);
+  problem.model = ModelOf(command);
+  if (!command.camera.empty()) {
+    stage.AddInput(command.camera);
+    problem.camera = ReadCamera(command.camera);
+  }
+  stage.AddOutput("parameters.toml");
+  if (stage.IsUpToDate()) return;
+
+  const Trajectories trajectories = ReadTrajectories(command.trajectories);
+  std::optional<double> fps = common.fps ? common.fps : trajectories.fps;
+  if (!fps && problem.camera) fps = problem.camera->fps;
+  if (!fps) {
+    throw InputError(command.trajectories.string(), 0, "says no frames per second", "give --fps");
+  }
+  const Progress progress = stage.BeginPhase("regress", "refits");
+  const FitResult result = FitModel(command.fit, problem, trajectories, *fps, common.seed,
+                                    common.ThreadCount(), progress);
+  stage.EndPhase();
+  if (!result.IsUsable()) {
+    throw CannotFit(command.trajectories.string() + ": " + StatusText(result.status));
+  }
+  WriteParameters(common.out / "parameters.toml", result.parameters);
+  for (const std::string& warning : result.warnings) stage.Warn(warning);
+  stage.figures() = AsJson(result);
+  stage.Finish();
+}
+
+void AddFitCommand(CLI::App& app) {
+  std::shared_ptr<FitCommand> command;
+  CLI::App* sub = AddSubcommand<FitCommand>(
+      app, "fit", "Find the interaction parameters behind trajectories",
+      "Examples:\n"
+      "  flocklift fit trajectories.csv --model boids --out run\n"
+      "  flocklift fit trajectories.csv --model boids --free alpha_a,alpha_c --set d_v=15",
+      {.fps = true, .seed = true}, &RunFit, &command);
+  sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
+  sub->add_option("--model", command->model, "the model; `flocklift simulate --list` names them")
+      ->capture_default_str();
+  sub->add_option("--free", command->free, "weights to fit, separated by commas; default: all")
+      ->delimiter(',');
+  sub->add_option("--set", command->set, "NAME=VALUE of parameters that are not free")
+      ->delimiter(',');
+  sub->add_option("--start", command->start, "parameters.toml that gives what is not free");
+  sub->add_option("--camera", command->camera, "camera file: where depth errors point");
+  AddFlags(*sub, command->fit, "Fit");
+}
+
+}  // namespace flocklift

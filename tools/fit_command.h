@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// `flocklift fit`: the interaction parameters behind trajectories.
+
+#ifndef FLOCKLIFT_TOOLS_FIT_COMMAND_H_
+#define FLOCKLIFT_TOOLS_FIT_COMMAND_H_
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "reconstruct/fit/fit.h"
+#include "tools/command.h"
+
+namespace flocklift {
+
+struct FitCommand {
+  std::filesystem::path trajectories = {};
+  std::filesystem::path camera = {};  // empty: depth errors point away from the world's origin
+  std::filesystem::path start = {};   // parameters.toml that gives what is not free
+  std::string model = "boids";
+  std::vector<std::string> free = {};  // empty: every weight
+  std::vector<std::string> set = {};   // "NAME=VALUE": what is not free
+  FitOptions fit = {};
+};
+
+// The data do not permit a fit: too few animals or frames. Not the input's fault: exit status 1.
+class CannotFit : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Writes parameters.toml. Throws CannotFit, with nothing written.
+void RunFit(const FitCommand& command, const CommonOptions& common);
+
+void AddFitCommand(CLI::App& app);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TOOLS_FIT_COMMAND_H_
