@@ -31,7 +31,7 @@ struct FitOptions {
   int substeps = 4;             // steps a frame of the engine that the weights are for; 0: infinite
   int bridged_gap = 5;          // missing frames that neighbours are interpolated over
   double held_out = 0.2;        // share of the time, at its end, that the prediction is scored on
-  int max_rows = 200000;        // more animals and frames are thinned to every n-th frame
+  int max_rows = 100000;        // more animals and frames are thinned to every n-th frame
   bool plain = false;           // ordinary least squares, which is biased; for comparison
   int depth_draws = 6;          // refits with depth errors added, when the input states them
   double depth_error_time = 2;  // for how long a depth error lasts [s]
@@ -70,11 +70,11 @@ struct FitProblem {
 
 struct FittedWeight {
   std::string name;
-  double value = 0;     // as written: within the model's legal range
-  double estimate = 0;  // free of that bound
-  double sd = 0;        // of the estimate; infinite when nothing is known
-  bool determined = false;
-  double plain = 0;  // ordinary least squares, biased, for comparison
+  double value = 0;         // as written: within the model's legal range
+  double estimate = 0;      // free of that bound
+  double sd = 0;            // of the estimate; infinite when nothing is known
+  bool determined = false;  // do the data say anything about it?
+  double plain = 0;         // ordinary least squares, biased, for comparison
   // Factor by which another depth error of the stated size changes the estimate, and its sd.
   std::optional<double> depth_factor, depth_factor_sd;
 };
@@ -102,6 +102,7 @@ struct FitResult {
   std::int64_t rows = 0;              // animals times frames used
   std::int64_t rows_clamped = 0;      // of these, whose speed limit acted
   std::int64_t rows_mixed = 0;        // left out: it acted in part of the window
+  bool converged = true;              // could the memory of what is left over be estimated?
   int window = 0;                     // m [frames]
   double acceleration_sd = 0;         // without the model: constant velocity [m/s^2]
   double residual_sd = 0;             // with it

@@ -170,6 +170,53 @@ std::int64_t MotionRows::Find(int wanted_frame, int wanted_animal) const {
   return found < last && animal[static_cast<std::size_t>(found)] == wanted_animal ? found : -1;
 }
 
+template <typename Keep>
+MotionRows MotionRows::Subset(const Keep& keep) const {
+  MotionRows some;
+  some.terms = terms;
+  some.window = window;
+  const std::size_t width = terms + 1;
+  for (std::size_t k = 0; k < size(); ++k) {
+    if (!keep(frame[k])) continue;
+    some.frame.push_back(frame[k]);
+    some.animal.push_back(animal[k]);
+    some.position.push_back(position[k]);
+    some.response.push_back(response[k]);
+    some.known.push_back(known[k]);
+    some.near_known.push_back(near_known[k]);
+    for (std::size_t c = k * width; c < (k + 1) * width; ++c) {
+      some.features.push_back(features[c]);
+      some.near.push_back(near[c]);
+      some.far.push_back(far[c]);
+    }
+    some.depth_sd.push_back(depth_sd[k]);
+    some.clamped.push_back(clamped[k]);
+  }
+  return some;
+}
+
+MotionRows MotionRows::Before(int split) const {
+  return Subset([&](int f) { return f + window + 1 < split; });
+}
+
+MotionRows MotionRows::From(int split) const {
+  return Subset([&](int f) { return f - window - 1 >= split; });
+}
+
+MotionRows MotionRows::WithoutTerms(const std::vector<bool>& drop) const {
+  MotionRows some = *this;
+  some.terms = static_cast<std::size_t>(std::count(drop.begin(), drop.end(), false));
+  for (std::vector<Vec3d>* columns : {&some.features, &some.near, &some.far}) {
+    std::vector<Vec3d> kept;
+    for (std::size_t k = 0; k < columns->size(); ++k) {
+      const std::size_t c = k % (terms + 1);
+      if (c == terms || !drop[c]) kept.push_back((*columns)[k]);
+    }
+    *columns = std::move(kept);
+  }
+  return some;
+}
+
 MotionRows BuildMotionRows(const MotionOptions& options, const FlockTerms& terms,
                            const ObservedFlock& flock, std::span<const int> middles,
                            const Progress& progress) {

@@ -54,6 +54,16 @@ struct MotionRows {
   std::size_t size() const { return frame.size(); }
   // Row of an animal in a frame, or -1.
   std::int64_t Find(int wanted_frame, int wanted_animal) const;
+
+  // The rows whose windows lie before frame `split`, or from it on.
+  MotionRows Before(int split) const;
+  MotionRows From(int split) const;
+  // All rows without the terms marked.
+  MotionRows WithoutTerms(const std::vector<bool>& drop) const;
+
+ private:
+  template <typename Keep>
+  MotionRows Subset(const Keep& keep) const;
 };
 
 // Rows of the middle frames asked for (increasing), as far as the tracks have them.

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/fit/fit_warnings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace flocklift {
+namespace {
+
+constexpr double kTooManyClamped = 0.3;  // share of rows at a speed limit
+constexpr double kConfining = 0.05;      // share of the unexplained that pulls to the middle
+
+}  // namespace
+
+double MedianSdDepth(const Trajectories& trajectories) {
+  std::vector<double> sds;
+  for (const Trajectory& trajectory : trajectories.trajectories) {
+    for (const TrajectoryPoint& point : trajectory.points) {
+      if (point.sd_depth > 0) sds.push_back(point.sd_depth);
+    }
+  }
+  if (sds.empty()) return 0;
+  const auto middle = sds.begin() + static_cast<std::ptrdiff_t>(sds.size() / 2);
+  std::nth_element(sds.begin(), middle, sds.end());
+  return *middle;
+}
+
+void AddWarnings(const FitOptions& options, double pull, double median_sd_depth,
+                 FitResult* result) {
+  const auto warn = [&](std::string text) { result->warnings.push_back(std::move(text)); };
+  if (options.plain) {
+    warn(
+        "plain least squares: the weights are biased, however long the data, and their standard "
+        "deviations do not show it");
+  }
+  if (result->r2_held_out && *result->r2_held_out <= 0) {
+    warn(
+        fmt::format("on the last {:.0f} % of the time the model predicts accelerations no better "
+                    "than constant velocity does (R^2 {:.3f}): it explains nothing",
+                    100 * options.held_out, *result->r2_held_out));
+  }
+  if (!result->converged) {
+    warn(
+        "what the model leaves over has a memory that could not be estimated: the weights are "
+        "biased");
+  }
+  std::string undetermined, negative, factors;
+  for (const FittedWeight& weight : result->weights) {
+    if (!weight.determined) undetermined += (undetermined.empty() ? " " : ", ") + weight.name;
+    if (weight.value != weight.estimate && weight.value == 0) {
+      negative += fmt::format("{} {} ({:.2g} +- {:.2g})", negative.empty() ? "" : ",", weight.name,
+                              weight.estimate, weight.sd);
+    }
+    if (weight.depth_factor) {
+      factors += fmt::format("{} {} by {:.2f} +- {:.2f}", factors.empty() ? "" : ",", weight.name,
+                             *weight.depth_factor, *weight.depth_factor_sd);
+    }
+  }
+  if (!undetermined.empty()) warn("the data do not determine" + undetermined);
+  if (!negative.empty()) warn("estimated below 0 and set to 0:" + negative);
+  const double used = static_cast<double>(result->rows + result->rows_mixed);
+  const double clamped = static_cast<double>(result->rows_clamped + result->rows_mixed);
+  if (clamped > kTooManyClamped * used) {
+    warn(fmt::format("{:.0f} % of the speeds are at the model's limits: check s_min and s_max",
+                     100 * clamped / used));
+  }
+  if (pull > kConfining) {
+    warn(
+        fmt::format("something that the model lacks holds the animals in place: a pull to the "
+                    "middle is {:.0f} % of what it leaves over; if there are walls, give them",
+                    100 * pull));
+  }
+  if (median_sd_depth > 0 && factors.empty()) {
+    warn(
+        fmt::format("depth errors (median sd {:.2g} m) distort the weights; by how much could not "
+                    "be told",
+                    median_sd_depth));
+  } else if (median_sd_depth > 0) {
+    warn(
+        fmt::format("depth errors (median sd {:.2g} m) distort the weights beyond their standard "
+                    "deviations: one more error of that size multiplies{}; the true weights may "
+                    "be off by as much again",
+                    median_sd_depth, factors));
+  }
+}
+
+}  // namespace flocklift
