@@ -428,9 +428,10 @@ void Plot::AppendShape(const Frame& frame, const Shape& shape, std::string* svg)
 
 std::string Plot::Svg() const {
   const Frame frame = MakeFrame();
-  std::string svg = fmt::format(
-      "<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">",
-      Coordinate(options_.width), Coordinate(frame.picture_height), EscapeMarkup(options_.title));
+  std::string svg =
+      fmt::format("<svg class=\"plot{}\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">",
+                  options_.width > 700 ? " wide" : "", Coordinate(options_.width),
+                  Coordinate(frame.picture_height), EscapeMarkup(options_.title));
   AppendAxes(frame, &svg);
   svg += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">", Coordinate(frame.left),
                      Coordinate(frame.top), Coordinate(frame.width), Coordinate(frame.height));

@@ -53,7 +53,7 @@ p { margin: 0 0 12px; max-width: 78ch; }
 }
 figure {
   margin: 0 0 18px; padding: 14px 16px 12px; background: var(--panel);
-  border: 1px solid var(--line); border-radius: 8px; overflow: hidden;
+  border: 1px solid var(--line); border-radius: 8px; overflow-x: auto;
 }
 figcaption { margin-top: 8px; color: var(--muted); font-size: 13.5px; max-width: 100ch; }
 .grid { display: grid; gap: 16px; margin-bottom: 18px; }
@@ -91,6 +91,7 @@ tbody tr:last-child td { border-bottom: 0; }
 details { margin-bottom: 14px; }
 summary { cursor: pointer; color: var(--accent); margin-bottom: 8px; }
 svg.plot { display: block; width: 100%; height: auto; }
+svg.plot.wide { min-width: 640px; }
 svg.plot text { font-family: inherit; font-size: 12px; fill: var(--ink); }
 svg.plot .title { font-size: 14px; font-weight: 600; }
 svg.plot .label { fill: var(--muted); }
