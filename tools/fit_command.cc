@@ -24,6 +24,7 @@ ModelSpec ModelOf(const FitCommand& command) {
   ModelSpec model;
   if (!command.start.empty()) model = ReadParameters(command.start).model;
   model.name = command.model;
+  if (model.where.empty()) model.where = "--model";
   for (const std::string& text : command.set) {
     const auto equals = text.find('=');
     const std::optional<double> value = equals == std::string::npos

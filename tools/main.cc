@@ -6,12 +6,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "simulate/core/check.h"
+#include "simulate/core/suggest.h"
 #include "tools/commands.h"
 #include "tools/version.h"
 
@@ -25,6 +28,14 @@ int Main(int argc, char** argv) {
   app.footer("`flocklift COMMAND --help` shows a command's options and examples.");
   AddCommands(app);
 
+  std::vector<std::string> commands;
+  for (const CLI::App* sub : app.get_subcommands({})) commands.push_back(sub->get_name());
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+    fmt::print(stderr, "flocklift: there is no command `{}`; {}\n", argv[1],
+               SuggestName(argv[1], commands));
+    return 2;
+  }
   const auto name = [&] {
     const auto used = app.get_subcommands();
     return used.empty() ? std::string("flocklift") : "flocklift " + used.front()->get_name();

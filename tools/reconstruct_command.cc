@@ -27,26 +27,6 @@ std::optional<Uncertain> ParseUncertain(const std::string& text, const std::stri
   return Uncertain{given.mean, given.sd.value_or(relative_sd * given.mean)};
 }
 
-Knowledge KnowledgeOf(const ReconstructCommand& command) {
-  Knowledge knowledge;
-  if (!command.preset.empty()) {
-    const SpeciesPreset& preset = PresetOf(command.preset);
-    knowledge.speed = preset.speed;
-    knowledge.wingspan = preset.wingspan;
-  }
-  if (const auto speed = ParseUncertain(command.speed, "--speed", kSpeedSd)) {
-    knowledge.speed = speed;
-  }
-  if (const auto wingspan = ParseUncertain(command.wingspan, "--wingspan", kWingspanSd)) {
-    knowledge.wingspan = wingspan;
-  }
-  knowledge.near = command.near;
-  knowledge.far = command.far;
-  knowledge.use_size = !command.no_size;
-  if (!command.anchors.empty()) knowledge.anchors = ReadAnchors(command.anchors);
-  return knowledge;
-}
-
 // Depths of the first frame of the tracks, from positions in the world frame.
 FirstDepths ReadFirstDepths(const fs::path& path, const Camera& camera, int frame) {
   FirstDepths depths;
@@ -93,12 +73,32 @@ nlohmann::ordered_json AsJson(const ReconstructReport& report) {
 
 }  // namespace
 
+Knowledge KnowledgeOf(const ReconstructCommand& command) {
+  Knowledge knowledge;
+  if (!command.preset.empty()) {
+    const SpeciesPreset& preset = PresetOf(command.preset);
+    knowledge.speed = preset.speed;
+    knowledge.wingspan = preset.wingspan;
+  }
+  if (const auto speed = ParseUncertain(command.speed, "--speed", kSpeedSd)) {
+    knowledge.speed = speed;
+  }
+  if (const auto wingspan = ParseUncertain(command.wingspan, "--wingspan", kWingspanSd)) {
+    knowledge.wingspan = wingspan;
+  }
+  knowledge.near = command.near;
+  knowledge.far = command.far;
+  knowledge.use_size = !command.no_size;
+  if (!command.anchors.empty()) knowledge.anchors = ReadAnchors(command.anchors);
+  CheckKnowledge(knowledge);
+  return knowledge;
+}
+
 void RunReconstruct(const ReconstructCommand& command, const CommonOptions& common) {
   ReconstructOptions options;
   options.method =
       command.method == "cobyla" ? ReconstructMethod::kCobyla : ReconstructMethod::kBatch;
   options.knowledge = KnowledgeOf(command);
-  CheckKnowledge(options.knowledge);
   options.pitch_deg = command.pitch_deg;
   options.batch = command.batch;
   options.cobyla = command.cobyla;

@@ -31,6 +31,9 @@ struct ReconstructCommand {
   CobylaOptions cobyla;
 };
 
+// What the flags say is known, checked. Reads the anchors.
+Knowledge KnowledgeOf(const ReconstructCommand& command);
+
 void RunReconstruct(const ReconstructCommand& command, const CommonOptions& common);
 
 void AddReconstructCommand(CLI::App& app);

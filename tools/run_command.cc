@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "simulate/camera/camera_io.h"
 #include "tools/report_command.h"
 #include "tools/stage.h"
 
@@ -32,6 +33,9 @@ void RunRun(const RunCommand& command, const CommonOptions& common) {
   stage.json = false;
   RequireFile(command.reconstruct.camera,
               "make one with `flocklift camera` or `flocklift calibrate`");
+
+  ReadCamera(command.reconstruct.camera);  // what would fail after the tracking fails before it
+  KnowledgeOf(command.reconstruct);
 
   RunTrack(command.track, stage);
 
