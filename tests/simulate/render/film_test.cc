@@ -4,6 +4,7 @@
 #include "simulate/render/film.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -43,7 +44,8 @@ std::string Bytes(const fs::path& path) {
 
 class FilmTest : public ::testing::Test {
  protected:
-  FilmTest() : folder_(fs::path(::testing::TempDir()) / "flocklift_film_test") {
+  FilmTest()
+      : folder_(fs::path(::testing::TempDir()) / ("flocklift_film_" + std::to_string(::getpid()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

@@ -4,12 +4,14 @@
 #include "simulate/render/image_codec.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 
 #include "simulate/core/check.h"
 
@@ -56,7 +58,8 @@ TEST(ImageCodecTest, WhatIsNoPictureDecodesToNothing) {
 }
 
 TEST(ImageCodecTest, Files) {
-  const auto path = std::filesystem::path(::testing::TempDir()) / "flocklift_image_codec_test.png";
+  const auto path = std::filesystem::path(::testing::TempDir()) /
+                    ("flocklift_image_codec_" + std::to_string(::getpid()) + ".png");
   WritePng(path, Gradient(20, 10));
   EXPECT_EQ(ReadImage(path).bgr, Gradient(20, 10).bgr);
   std::ofstream(path) << "no picture";

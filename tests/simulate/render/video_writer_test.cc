@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -24,8 +25,7 @@ namespace fs = std::filesystem;
 class VideoWriterTest : public ::testing::Test {
  protected:
   VideoWriterTest() {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(::testing::TempDir()) / (std::string("flocklift_video_") + info->name());
+    folder_ = fs::path(::testing::TempDir()) / ("flocklift_video_" + std::to_string(::getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
