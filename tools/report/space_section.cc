@@ -76,15 +76,30 @@ std::vector<Vec3d> EdgeRays(const Camera& camera, int frame, bool side_view) {
   return rays;
 }
 
+const TrajectoryPoint* PointAt(const Trajectory& trajectory, int frame) {
+  const auto& points = trajectory.points;
+  const auto point =
+      std::lower_bound(points.begin(), points.end(), frame,
+                       [](const TrajectoryPoint& p, int wanted) { return p.frame < wanted; });
+  return point != points.end() && point->frame == frame ? &*point : nullptr;
+}
+
+// What the views can show without becoming unreadable.
+struct ViewContents {
+  bool camera = true;      // a flock far away would be a speck beside it
+  bool error_bars = true;  // too many hide the animals
+  double arrow = 13;       // size of an arrow head [px]
+};
+
 // One view, the camera on the left and looking right: (ahead, left) from above, (ahead, height)
 // from the side.
 class View {
  public:
-  View(const ReportData& data, const Moment& moment, bool with_camera, bool from_the_side)
+  View(const ReportData& data, const Moment& moment, const ViewContents& with, bool from_the_side)
       : data_(data),
         moment_(moment),
         basis_(*data.run.camera, moment.frame),
-        with_camera_(with_camera),
+        with_(with),
         side_(from_the_side) {}
 
   std::string Svg() const {
@@ -119,7 +134,7 @@ class View {
       plot->AddLine({at, {at.x + 1e4 * along.x, at.y + 1e4 * along.y}},
                     {.color = "var(--muted)", .width = 1, .dash = "5 4", .sets_range = false});
     }
-    if (!with_camera_) return;
+    if (!with_.camera) return;
     const Vec3d axis =
         data_.run.camera->CamFromWorld(moment_.frame).Inverse().rotation * Vec3d{0, 0, 1};
     plot->AddArrow(at, Turn(axis), {.color = "var(--ink)", .width = 18});
@@ -128,11 +143,11 @@ class View {
 
   // Along the ray through each animal, one standard deviation either way.
   void AddErrorBars(Plot* plot) const {
+    if (!with_.error_bars) return;
     const Camera& camera = *data_.run.camera;
     std::vector<Vec2d> bars;
-    std::size_t count = 0;
     for (const Trajectory& trajectory : data_.run.trajectories->trajectories) {
-      const TrajectoryPoint* now = PointNow(trajectory);
+      const TrajectoryPoint* now = PointAt(trajectory, moment_.frame);
       if (now == nullptr || !(now->sd_depth > 0)) continue;
       const Rigid3d cam_from_world = camera.CamFromWorld(now->frame);
       const Vec3d in_cam = cam_from_world * now->position;
@@ -142,12 +157,11 @@ class View {
         bars.push_back(Place(cam_from_world.Inverse() * (in_cam * factor)));
       }
       bars.push_back({std::nan(""), std::nan("")});
-      if (++count > kMostErrorBars) return;
     }
     plot->AddLine(bars, {.color = "var(--muted)",
                          .width = 1,
                          .opacity = 0.6,
-                         .label = bars.empty() ? "" : "\xC2\xB1 1 sd of depth",
+                         .label = "\xC2\xB1 1 sd of depth",
                          .sets_range = false});
   }
 
@@ -175,28 +189,21 @@ class View {
 
   void AddArrows(Plot* plot) const {
     for (const Trajectory& trajectory : data_.run.trajectories->trajectories) {
-      const TrajectoryPoint* now = PointNow(trajectory);
+      const TrajectoryPoint* now = PointAt(trajectory, moment_.frame);
       if (now == nullptr) continue;
-      plot->AddArrow(Place(now->position), Turn(now->velocity),
-                     {.color = SeriesColor(static_cast<std::size_t>(trajectory.id)), .width = 13});
+      plot->AddArrow(
+          Place(now->position), Turn(now->velocity),
+          {.color = SeriesColor(static_cast<std::size_t>(trajectory.id)), .width = with_.arrow});
     }
-  }
-
-  const TrajectoryPoint* PointNow(const Trajectory& trajectory) const {
-    const auto& points = trajectory.points;
-    const auto point =
-        std::lower_bound(points.begin(), points.end(), moment_.frame,
-                         [](const TrajectoryPoint& p, int frame) { return p.frame < frame; });
-    return point != points.end() && point->frame == moment_.frame ? &*point : nullptr;
   }
 
   const ReportData& data_;
   Moment moment_;
   ViewBasis basis_;
-  bool with_camera_, side_;
+  ViewContents with_;
+  bool side_;
 };
 
-// A flock far away would be a speck in a picture that holds the camera too.
 bool CameraFits(const ReportData& data, const Moment& moment) {
   const ViewBasis basis(*data.run.camera, moment.frame);
   double near = 1e300, far = -1e300, left = 1e300, right = -1e300;
@@ -211,6 +218,19 @@ bool CameraFits(const ReportData& data, const Moment& moment) {
     }
   }
   return far < 4 * std::max(far - near, right - left);
+}
+
+ViewContents ContentsFor(const ReportData& data, const Moment& moment) {
+  std::size_t animals = 0, with_sd = 0;
+  for (const Trajectory& trajectory : data.run.trajectories->trajectories) {
+    const TrajectoryPoint* now = PointAt(trajectory, moment.frame);
+    if (now == nullptr) continue;
+    ++animals;
+    if (now->sd_depth > 0) ++with_sd;
+  }
+  return {.camera = CameraFits(data, moment),
+          .error_bars = with_sd > 0 && with_sd <= kMostErrorBars,
+          .arrow = animals > kMostErrorBars ? 8.0 : 13.0};
 }
 
 }  // namespace
@@ -238,14 +258,16 @@ void AddSpaceSection(const ReportData& data, Page* page, Missing* missing) {
                  : fmt::format("Lines: their paths in frames {} to {}", moment.first_path_frame,
                                moment.last_path_frame);
   if (paths > kMostPaths) caption += fmt::format(" (the {} longest of {})", kMostPaths, paths);
-  caption +=
-      ", coloured by identity (colours repeat). Grey bars: one standard deviation of depth along "
-      "the viewing ray. Dashed: the edges of the picture. ";
-  const bool with_camera = CameraFits(data, moment);
-  if (!with_camera) caption += "The camera stands far to the left, outside. ";
+  caption += ", coloured by identity (colours repeat). ";
+  const ViewContents contents = ContentsFor(data, moment);
+  if (contents.error_bars) {
+    caption += "Grey bars: one standard deviation of depth along the viewing ray. ";
+  }
+  caption += "Dashed: the edges of the picture. ";
+  if (!contents.camera) caption += "The camera stands far to the left, outside. ";
   caption += "A metre is equally long in both directions.";
-  page->AddFigure(View(data, moment, with_camera, false).Svg(), caption);
-  page->AddFigure(View(data, moment, with_camera, true).Svg(),
+  page->AddFigure(View(data, moment, contents, false).Svg(), caption);
+  page->AddFigure(View(data, moment, contents, true).Svg(),
                   run.camera->KnowsGravity()
                       ? "The same from the side: height over the distance ahead of the camera."
                       : "The same from the side. The camera file has no pose, so up is the "

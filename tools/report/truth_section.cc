@@ -195,12 +195,27 @@ std::string CalibrationCurve(const std::vector<MatchedPoint>& points, double sca
   return plot.Svg();
 }
 
+// scores.json alone: the truth itself is not there.
+void AddScoresAsTold(const nlohmann::ordered_json& scores, Page* page) {
+  page->BeginSection("truth", "Against the truth");
+  for (const auto& [kind, figures] : scores.items()) {
+    if (!figures.is_object()) continue;
+    Table table{{kind, "score"}, {}};
+    for (const auto& [name, value] : figures.items()) table.rows.push_back({name, JsonText(value)});
+    page->AddTable(table, "As scores.json tells it; the truth itself is not in this folder.");
+  }
+}
+
 }  // namespace
 
 void AddTruthSection(const ReportData& data, Page* page, Missing* missing) {
   const RunFolder& run = data.run;
   const bool has_tracks = run.tracks && run.true_tracks;
   if (!has_tracks && !data.matched) {
+    if (run.scores.is_object() && !run.scores.empty()) {
+      AddScoresAsTold(run.scores, page);
+      return;
+    }
     missing->push_back(
         "Errors: no truth was found in truth/ of this folder or beside it (--truth names another "
         "folder).");

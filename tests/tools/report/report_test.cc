@@ -222,6 +222,15 @@ TEST_F(ReportTest, TrajectoriesWithoutTimeOrCameraGiveAPageToo) {
   EXPECT_TRUE(Contains(timed, "2 s at 10 frames/s"));
 }
 
+TEST_F(ReportTest, ScoresAreShownWithoutTheTruthToo) {
+  WriteTracks(run_ / "tracks.csv", Seen(Flock(3, 20, 1, 1), 0));
+  WriteTextFile(run_ / "scores.json", R"({"tracks": {"HOTA": 0.875, "<b>": 1}})");
+  const std::string html = Report();
+  ExpectWellFormed(html);
+  EXPECT_TRUE(Contains(html, "<td>HOTA</td><td>0.875</td>"));
+  EXPECT_FALSE(Contains(html, "<b>"));
+}
+
 TEST_F(ReportTest, HostileNamesStayText) {
   FillFolder();
   const fs::path evil = folder_ / "<img src=x onerror=alert(1)>";
