@@ -56,7 +56,7 @@ struct Vec3 {
   friend constexpr Vec3 operator*(const T& s, Vec3 a) { return a *= s; }
   friend constexpr Vec3 operator*(Vec3 a, const T& s) { return a *= s; }
   friend constexpr Vec3 operator/(Vec3 a, const T& s) { return {a.x / s, a.y / s, a.z / s}; }
-  friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
+  friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
 using Vec2d = Vec2<double>;
