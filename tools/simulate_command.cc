@@ -103,7 +103,7 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   }
   stage.BeginPhase("write", "files");
   WriteTrajectories(common.out / "trajectories.csv", result.truth);
-  WriteTracks(common.out / "tracks_true.csv", tracks);
+  WriteTrueTracks(common.out / "tracks_true.csv", tracks);
   WriteCamera(common.out / "camera.yaml", camera);
   stage.EndPhase();
 

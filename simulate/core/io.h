@@ -46,11 +46,14 @@ Tracks ReadTracks(const std::filesystem::path& path);
 Tracks ReadTracks(std::istream& stream, const std::string& name);
 // By frame, then id.
 void WriteTracks(const std::filesystem::path& path, const Tracks& tracks);
+// The same for the truth of a simulation. MOTChallenge's ground truth has the visibility in its
+// ninth column, and scorers leave out rows where it is low: it is 1 here, hidden animals count.
+void WriteTrueTracks(const std::filesystem::path& path, const Tracks& tracks);
 
 // Writes rows as they come: bounded memory. Without Commit no file appears.
 class TrackWriter {
  public:
-  TrackWriter(const std::filesystem::path& path, std::optional<double> fps);
+  TrackWriter(const std::filesystem::path& path, std::optional<double> fps, bool is_truth = false);
   ~TrackWriter();
   void Add(Id id, const Detection& detection);
   void Commit();

@@ -130,9 +130,11 @@ std::vector<DetectionFrame> ReadDetections(std::istream& stream, const std::stri
   });
 }
 
-TrackWriter::TrackWriter(const std::filesystem::path& path, std::optional<double> fps)
-    : writer_(internal::TableWriter::Create(path, Layout(true), {true, true}, fps,
-                                            {.decimals = kDecimals, .end_of_row = ",-1,-1,-1"})) {}
+TrackWriter::TrackWriter(const std::filesystem::path& path, std::optional<double> fps,
+                         bool is_truth)
+    : writer_(internal::TableWriter::Create(
+          path, Layout(true), {true, true}, fps,
+          {.decimals = kDecimals, .end_of_row = is_truth ? ",-1,1,-1" : ",-1,-1,-1"})) {}
 TrackWriter::~TrackWriter() = default;
 
 void TrackWriter::Add(Id id, const Detection& detection) {
@@ -144,12 +146,23 @@ void TrackWriter::Add(Id id, const Detection& detection) {
 
 void TrackWriter::Commit() { writer_->Commit(); }
 
-void WriteTracks(const std::filesystem::path& path, const Tracks& tracks) {
-  TrackWriter writer(path, tracks.fps);
+namespace {
+
+void WriteAllTracks(const Tracks& tracks, TrackWriter writer) {
   internal::ForEachByFrame(
       tracks.tracklets, [](const Tracklet& t) -> const auto& { return t.detections; },
       [&](Id id, const Detection& detection) { writer.Add(id, detection); });
   writer.Commit();
+}
+
+}  // namespace
+
+void WriteTracks(const std::filesystem::path& path, const Tracks& tracks) {
+  WriteAllTracks(tracks, TrackWriter(path, tracks.fps));
+}
+
+void WriteTrueTracks(const std::filesystem::path& path, const Tracks& tracks) {
+  WriteAllTracks(tracks, TrackWriter(path, tracks.fps, /*is_truth=*/true));
 }
 
 void WriteDetections(const std::filesystem::path& path, const std::vector<DetectionFrame>& frames) {
