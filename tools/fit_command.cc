@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
+#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -16,22 +16,32 @@
 #include "simulate/core/parameters.h"
 #include "simulate/core/text.h"
 #include "tools/stage.h"
+#include "tools/walls.h"
 
 namespace flocklift {
 namespace {
 
 ModelSpec ModelOf(const FitCommand& command) {
   ModelSpec model;
-  if (!command.start.empty()) model = ReadParameters(command.start).model;
+  if (!command.start.empty()) {
+    model = ReadParameters(command.start).model;
+    if (model.name != command.model) {
+      throw InputError(model.where, 0, "the start is of model " + model.name,
+                       "give --model " + model.name);
+    }
+  } else {
+    model.where = "--model";
+  }
   model.name = command.model;
-  if (model.where.empty()) model.where = "--model";
   for (const std::string& text : command.set) {
     const auto equals = text.find('=');
     const std::optional<double> value = equals == std::string::npos
                                             ? std::nullopt
                                             : ParseReal(std::string_view(text).substr(equals + 1));
     Check(value.has_value(), "--set " + text + " is not NAME=VALUE");
-    model.parameters[text.substr(0, equals)] = *value;
+    const std::string name = text.substr(0, equals);
+    model.parameters[name] = *value;
+    model.where_of[name] = "--set " + text;
   }
   return model;
 }
@@ -52,30 +62,55 @@ nlohmann::ordered_json WeightAsJson(const FittedWeight& weight) {
   return json;
 }
 
+nlohmann::ordered_json DirectionAsJson(const FitResult& result, const FitDirection& direction) {
+  nlohmann::ordered_json weights = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < direction.weights.size(); ++k) {
+    weights[result.weights[k].name] = direction.weights[k];
+  }
+  return {{"sd", NumberOrNull(direction.sd)}, {"weights", weights}};
+}
+
 nlohmann::ordered_json AsJson(const FitResult& result) {
   nlohmann::ordered_json json = {{"animals", result.animals},
                                  {"frames", result.frames},
                                  {"rows", result.rows},
                                  {"rows_clamped", result.rows_clamped},
+                                 {"rows_mixed", result.rows_mixed},
                                  {"window", result.window},
                                  {"acceleration_sd", result.acceleration_sd},
                                  {"residual_sd", result.residual_sd},
                                  {"r2", result.r2},
                                  {"noise_sd", NumberOrNull(result.noise_sd)},
                                  {"noise_time", NumberOrNull(result.noise_time)},
+                                 {"diffusion", NumberOrNull(result.diffusion)},
+                                 {"own_speed_mean", result.own_speed_mean},
+                                 {"own_speed_sd", result.own_speed_sd},
                                  {"condition", NumberOrNull(result.condition)}};
   if (result.r2_held_out) json["r2_held_out"] = *result.r2_held_out;
   for (const FittedWeight& weight : result.weights) {
     json["weights"].push_back(WeightAsJson(weight));
   }
+  json["best_direction"] = DirectionAsJson(result, result.best);
+  json["worst_direction"] = DirectionAsJson(result, result.worst);
   return json;
+}
+
+void PrintTable(const FitResult& result) {
+  fmt::print(stderr, "  {:<12} {:>10} {:>10}   {:>13}\n", "weight", "value", "sd", "least squares");
+  for (const FittedWeight& weight : result.weights) {
+    fmt::print(stderr, "  {:<12} {:>10.4g} {:>10.2g}   {:>13.4g}{}\n", weight.name, weight.value,
+               weight.sd, weight.plain, weight.determined ? "" : "   not determined");
+  }
 }
 
 }  // namespace
 
 void RunFit(const FitCommand& command, const CommonOptions& common) {
   Stage stage("fit", common);
-  stage.options() = {{"model", command.model}, {"free", command.free}, {"set", command.set}};
+  stage.options() = {{"model", command.model},
+                     {"free", command.free},
+                     {"set", command.set},
+                     {"walls", command.walls}};
   stage.options()["fit"] = OptionsAsJson(command.fit);
   stage.options()["seed"] = common.seed;
   if (common.fps) stage.options()["fps"] = *common.fps;
@@ -83,6 +118,7 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
   stage.AddInput(command.trajectories);
   FitProblem problem;
   problem.free = command.free;
+  problem.walls = ParseWalls(command.walls);
   if (!command.start.empty()) stage.AddInput(command.start);
   problem.model = ModelOf(command);
   if (!command.camera.empty()) {
@@ -109,6 +145,7 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
   for (const std::string& warning : result.warnings) stage.Warn(warning);
   stage.figures() = AsJson(result);
   stage.Finish();
+  if (!common.quiet && !common.json) PrintTable(result);
 }
 
 void AddFitCommand(CLI::App& app) {
@@ -117,7 +154,8 @@ void AddFitCommand(CLI::App& app) {
       app, "fit", "Find the interaction parameters behind trajectories",
       "Examples:\n"
       "  flocklift fit trajectories.csv --model boids --out run\n"
-      "  flocklift fit trajectories.csv --model boids --free alpha_a,alpha_c --set d_v=15",
+      "  flocklift fit trajectories.csv --model boids --free alpha_a,alpha_c --set d_v=15\n"
+      "  flocklift fit truth/trajectories.csv --walls=-20,-20,2,20,20,22",
       {.fps = true, .seed = true}, &RunFit, &command);
   sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
   sub->add_option("--model", command->model, "the model; `flocklift simulate --list` names them")
@@ -128,6 +166,7 @@ void AddFitCommand(CLI::App& app) {
       ->delimiter(',');
   sub->add_option("--start", command->start, "parameters.toml that gives what is not free");
   sub->add_option("--camera", command->camera, "camera file: where depth errors point");
+  AddWallsFlag(*sub, &command->walls);
   AddFlags(*sub, command->fit, "Fit");
 }
 

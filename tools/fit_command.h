@@ -24,6 +24,7 @@ struct FitCommand {
   std::string model = "boids";
   std::vector<std::string> free = {};  // empty: every weight
   std::vector<std::string> set = {};   // "NAME=VALUE": what is not free
+  std::string walls = {};              // "X0,Y0,Z0,X1,Y1,Z1" [m]; empty: none
   FitOptions fit = {};
 };
 

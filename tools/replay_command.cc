@@ -4,11 +4,15 @@
 #include "tools/replay_command.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <vector>
 
+#include "reconstruct/metrics/flock_statistics.h"
 #include "simulate/camera/camera_io.h"
 #include "simulate/core/animal.h"
 #include "simulate/core/check.h"
@@ -17,6 +21,7 @@
 #include "simulate/core/rng.h"
 #include "simulate/render/film.h"
 #include "tools/stage.h"
+#include "tools/walls.h"
 
 namespace flocklift {
 namespace {
@@ -42,17 +47,59 @@ Trajectories FromFrameOne(Trajectories flock, int start_frame) {
   return flock;
 }
 
-// Divergence at round times, at most ten a decade, for the summary.
-nlohmann::ordered_json DivergenceSeries(const std::vector<Divergence>& divergence) {
+constexpr double kFirstTimes[] = {0.1, 0.2, 0.5};  // [s]
+
+// 0.1, 0.2, 0.5, 1, 2, 3 .. 10, 20, 30 .. 100, ... s, as far as the replay goes, and its end.
+bool IsReported(double time, double frame_time, bool last) {
+  const auto near = [&](double wanted) { return std::abs(time - wanted) < 0.5 * frame_time; };
+  if (last) return true;
+  if (time < 0.9) return std::any_of(std::begin(kFirstTimes), std::end(kFirstTimes), near);
+  const double unit = std::pow(10, std::floor(std::log10(time + 0.5 * frame_time)));
+  return near(unit * std::round(time / unit));
+}
+
+nlohmann::ordered_json DivergenceSeries(const std::vector<Divergence>& divergence, double fps,
+                                        bool guided) {
   nlohmann::ordered_json series = nlohmann::ordered_json::array();
-  double next = 0;
   for (const Divergence& d : divergence) {
-    if (d.time + 1e-9 < next && &d != &divergence.back()) continue;
+    if (!IsReported(d.time, 1 / fps, &d == &divergence.back())) continue;
     series.push_back({{"time", d.time},
                       {"animals", d.animals},
                       {"model_rms", d.model_rms},
                       {"straight_on_rms", d.straight_on_rms}});
-    next = std::max(d.time + 0.1, 1.1 * d.time);
+    if (!guided) series.back()["perturbed_rms"] = d.perturbed_rms;
+  }
+  return series;
+}
+
+nlohmann::ordered_json OrNull(const std::optional<double>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
+}
+
+nlohmann::ordered_json StatisticsAsJson(const FlockStatistics& s) {
+  return {{"animals", s.count},
+          {"polarisation", OrNull(s.polarisation)},
+          {"median_speed", s.speed_median},
+          {"median_neighbour_distance", OrNull(s.neighbour_median)}};
+}
+
+// Reconstruction and replay side by side, at the frames in which both have animals.
+nlohmann::ordered_json StatisticsSeries(const Trajectories& reconstruction,
+                                        const ReplayResult& result, double fps) {
+  std::map<int, FlockStatistics> before;
+  for (const FlockStatistics& s : ComputeFlockStatistics(StatesByFrame(reconstruction))) {
+    before[s.frame] = s;
+  }
+  const std::vector<FlockStatistics> after = ComputeFlockStatistics(StatesByFrame(result.replayed));
+  nlohmann::ordered_json series = nlohmann::ordered_json::array();
+  for (const FlockStatistics& s : after) {
+    const double time = (s.frame - result.start_frame) / fps;
+    const auto found = before.find(s.frame);
+    if (found == before.end()) continue;
+    if (time > 0 && !IsReported(time, 1 / fps, &s == &after.back())) continue;
+    series.push_back({{"time", time},
+                      {"reconstruction", StatisticsAsJson(found->second)},
+                      {"replay", StatisticsAsJson(s)}});
   }
   return series;
 }
@@ -68,12 +115,15 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
   RequireFile(command.parameters, "give the file that `flocklift fit` wrote");
   stage.AddInput(command.trajectories);
   stage.AddInput(command.parameters);
+  const std::optional<Region> walls = ParseWalls(command.walls);
+  if (walls) stage.options()["walls"] = command.walls;
   std::optional<Camera> camera;
   if (!command.camera.empty()) {
     stage.AddInput(command.camera);
     stage.options()["wingspan"] = command.wingspan;
+    stage.options()["no_video"] = command.no_video;
     camera = ReadCamera(command.camera);
-    stage.AddOutput("video.mp4");
+    if (!command.no_video) stage.AddOutput("video.mp4");
   }
   stage.AddOutput("trajectories.csv");
   if (stage.IsUpToDate()) return;
@@ -88,9 +138,9 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
   if (!reconstruction.has_velocity) ComputeVelocities(*fps, &reconstruction);
 
   const Progress progress = stage.BeginPhase("fly");
-  const ReplayResult result = Replay(command.replay, parameters.model, reconstruction, *fps,
+  const ReplayResult result = Replay(command.replay, parameters.model, walls, reconstruction, *fps,
                                      common.seed, common.ThreadCount(), progress);
-  if (camera) {
+  if (camera && !command.no_video) {
     const Progress film = stage.BeginPhase("film");
     FilmTrajectories(common.out / "video.mp4", FromFrameOne(result.replayed, result.start_frame),
                      AnimalsOf(result.replayed, command.wingspan, common.seed), *camera, {},
@@ -99,9 +149,12 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
   stage.BeginPhase("write", "files");
   WriteTrajectories(common.out / "trajectories.csv", result.replayed);
   stage.EndPhase();
-  stage.figures() = {{"start_frame", result.start_frame},
-                     {"agents", result.replayed.trajectories.size()},
-                     {"divergence", DivergenceSeries(result.divergence)}};
+  stage.figures() = {
+      {"start_frame", result.start_frame},
+      {"agents", result.replayed.trajectories.size()},
+      {"guided", command.replay.alpha < 1},
+      {"divergence", DivergenceSeries(result.divergence, *fps, command.replay.alpha < 1)},
+      {"statistics", StatisticsSeries(reconstruction, result, *fps)}};
   stage.Finish();
 }
 
@@ -118,6 +171,8 @@ void AddReplayCommand(CLI::App& app) {
   sub->add_option("--parameters", command->parameters, "parameters.toml of `flocklift fit`")
       ->required();
   sub->add_option("--camera", command->camera, "camera file; also film the replay");
+  sub->add_flag("--no-video", command->no_video, "write no video");
+  AddWallsFlag(*sub, &command->walls);
   sub->add_option("--wingspan", command->wingspan, "of the animals in the film [m]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <string>
 
 #include "reconstruct/replay/replay.h"
 #include "tools/command.h"
@@ -17,7 +18,9 @@ namespace flocklift {
 struct ReplayCommand {
   std::filesystem::path trajectories = {}, parameters = {};
   std::filesystem::path camera = {};  // empty: no video
-  double wingspan = 0.7;              // of the animals in the video [m]
+  bool no_video = false;
+  double wingspan = 0.7;   // of the animals in the video [m]
+  std::string walls = {};  // "X0,Y0,Z0,X1,Y1,Z1" [m]; empty: none
   ReplayOptions replay = {};
 };
 

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
 #include "reconstruct/metrics/flock_statistics.h"
+#include "reconstruct/replay/guided_flight.h"
 #include "simulate/core/check.h"
 #include "simulate/core/rng.h"
 #include "simulate/flock/engine.h"
@@ -52,6 +54,8 @@ double MedianNeighbourDistance(const FlockState& state) {
 struct Start {
   std::vector<Id> id;
   Swarm swarm;
+  std::vector<Id> source;     // whose path each animal follows when guided
+  std::vector<Vec3d> offset;  // ... and how far aside [m]
 };
 
 Start MakeStart(const Trajectories& reconstruction, int frame, int count, std::uint64_t seed) {
@@ -80,6 +84,8 @@ Start MakeStart(const Trajectories& reconstruction, int frame, int count, std::u
       id = ++last_id;
     }
     start.id.push_back(id);
+    start.source.push_back(state.id[source]);
+    start.offset.push_back(offset);
     start.swarm.position.push_back(state.position[source] + offset);
     start.swarm.velocity.push_back(state.velocity[source]);
     start.swarm.cruising_speed.push_back(cruising_speed.at(state.id[source]));
@@ -119,11 +125,90 @@ Divergence Compare(const FlockState& reconstruction, const std::vector<Id>& ids,
   return divergence;
 }
 
+// Flies the start on, a frame at a time.
+class Flight {
+ public:
+  virtual ~Flight() = default;
+  virtual FlockState NextFrame() = 0;
+};
+
+// By the engine, the model alone.
+class FreeFlight : public Flight {
+ public:
+  FreeFlight(const World& world, const Swarm& swarm, int substeps, int threads)
+      : engine_(world, {swarm}, {.threads = threads, .kernel = {}}), substeps_(substeps) {}
+  FlockState NextFrame() override {
+    for (int step = 0; step < substeps_; ++step) engine_.Step();
+    return engine_.State();
+  }
+
+ private:
+  Engine engine_;
+  int substeps_;
+};
+
+class PulledFlight : public Flight {
+ public:
+  PulledFlight(const ReplayOptions& options, const ModelSpec& model,
+               const std::optional<Region>& walls, const Trajectories& reconstruction,
+               const Start& start, int frame, double fps)
+      : flight_(model, walls, options.alpha, options.pull_time, start.swarm.position,
+                start.swarm.velocity, start.swarm.cruising_speed),
+        reconstruction_(reconstruction),
+        start_(start),
+        frame_(frame),
+        substeps_(options.substeps),
+        fps_(fps) {}
+
+  FlockState NextFrame() override {
+    const FlockState now = StateAtFrame(reconstruction_, frame_);
+    const FlockState next = StateAtFrame(reconstruction_, ++frame_);
+    std::unordered_map<Id, std::size_t> now_index, next_index;
+    for (std::size_t k = 0; k < now.size(); ++k) now_index.emplace(now.id[k], k);
+    for (std::size_t k = 0; k < next.size(); ++k) next_index.emplace(next.id[k], k);
+    std::vector<std::optional<PathPoint>> paths(start_.id.size());
+    for (int step = 0; step < substeps_; ++step) {
+      const double u = static_cast<double>(step) / substeps_;
+      for (std::size_t k = 0; k < paths.size(); ++k) {
+        const auto a = now_index.find(start_.source[k]), b = next_index.find(start_.source[k]);
+        paths[k].reset();
+        if (a == now_index.end() || b == next_index.end()) continue;
+        const Vec3d& from = now.position[a->second];
+        const Vec3d& to = next.position[b->second];
+        paths[k] = PathPoint{from + u * (to - from) + start_.offset[k], (to - from) * fps_};
+      }
+      flight_.Step(paths, 1 / (fps_ * substeps_));
+    }
+    return {start_.id, flight_.position(), flight_.velocity()};
+  }
+
+ private:
+  GuidedFlight flight_;
+  const Trajectories& reconstruction_;
+  const Start& start_;
+  int frame_, substeps_;
+  double fps_;
+};
+
+Swarm Perturbed(Swarm swarm, std::uint64_t seed) {
+  for (std::size_t k = 0; k < swarm.position.size(); ++k) {
+    Rng rng(seed, (std::uint64_t{1} << 63) | k);
+    swarm.position[k] += kPerturbation * Vec3d{rng.Normal(), rng.Normal(), rng.Normal()};
+  }
+  return swarm;
+}
+
+double RmsDistance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += SquaredNorm(a[k] - b[k]);
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(a.size(), 1)));
+}
+
 }  // namespace
 
 ReplayResult Replay(const ReplayOptions& options, const ModelSpec& model,
-                    const Trajectories& reconstruction, double fps, std::uint64_t seed, int threads,
-                    const Progress& progress) {
+                    const std::optional<Region>& walls, const Trajectories& reconstruction,
+                    double fps, std::uint64_t seed, int threads, const Progress& progress) {
   CheckOptions(options);
   Check(fps > 0, "fps must be positive to replay");
   Check(reconstruction.has_velocity, "a replay starts from velocities: fill them first");
@@ -134,24 +219,36 @@ ReplayResult Replay(const ReplayOptions& options, const ModelSpec& model,
   const int frames = options.duration > 0 ? static_cast<int>(std::lround(options.duration * fps))
                                           : SpanOf(reconstruction).last - result.start_frame;
 
-  const World world{.seed = seed,
-                    .dt = 1 / (fps * options.substeps),
-                    .time = (result.start_frame - 1) / fps,
-                    .goals = {},
-                    .predators = {}};
-  Engine engine(world, {start.swarm}, {.threads = threads, .kernel = {}});
+  World world{.seed = seed,
+              .dt = 1 / (fps * options.substeps),
+              .time = (result.start_frame - 1) / fps,
+              .goals = {},
+              .predators = {}};
+  if (walls) world.box = *walls;
+  std::unique_ptr<Flight> flight, perturbed;
+  if (options.alpha < 1) {
+    flight = std::make_unique<PulledFlight>(options, model, walls, reconstruction, start,
+                                            result.start_frame, fps);
+  } else {
+    flight = std::make_unique<FreeFlight>(world, start.swarm, options.substeps, threads);
+    perturbed = std::make_unique<FreeFlight>(world, Perturbed(start.swarm, seed), options.substeps,
+                                             threads);
+  }
   result.replayed.fps = fps;
   result.replayed.has_velocity = result.replayed.has_orientation = true;
   for (const Id id : start.id) result.replayed.trajectories.push_back({.id = id, .points = {}});
 
-  Append(engine.State(), result.start_frame, &result.replayed);
+  Append({start.id, start.swarm.position, start.swarm.velocity}, result.start_frame,
+         &result.replayed);
   for (int k = 1; k <= frames; ++k) {
-    for (int step = 0; step < options.substeps; ++step) engine.Step();
     const int frame = result.start_frame + k;
-    const FlockState state = engine.State();
+    const FlockState state = flight->NextFrame();
     Append(state, frame, &result.replayed);
-    const Divergence divergence =
+    Divergence divergence =
         Compare(StateAtFrame(reconstruction, frame), start.id, state, start.swarm, k / fps);
+    if (perturbed) {
+      divergence.perturbed_rms = RmsDistance(state.position, perturbed->NextFrame().position);
+    }
     if (divergence.animals > 0) result.divergence.push_back(divergence);
     Report(progress, k, frames);
   }

@@ -3,13 +3,16 @@
 //
 // A reconstructed flock, flown on by a model: the state at one frame, run forward through the
 // force engine that also makes the synthetic flocks. How soon it parts from the reconstruction says
-// how much of the motion the model explains; flying straight on is the model to beat.
-// World frame, z up; metres, seconds.
+// how much of the motion the model explains; flying straight on is the model to beat, and the
+// growth of a small perturbation of the same flock says how soon any model would part from it. Or
+// guided: the model and a pull to the reconstructed paths at once (guided_flight.h). World frame, z
+// up; metres, seconds.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_REPLAY_REPLAY_H_
 #define FLOCKLIFT_RECONSTRUCT_REPLAY_REPLAY_H_
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "simulate/core/options.h"
@@ -24,6 +27,8 @@ struct ReplayOptions {
   double duration = 0;
   int count = 0;
   int substeps = 4;
+  double alpha = 1;
+  double pull_time = 0.5;
 };
 
 template <typename Visitor>
@@ -34,6 +39,11 @@ void Describe(Visitor& visit, ReplayOptions& o) {
   visit("count", o.count, {.low = 0, .high = 1e6}, "",
         "animals; 0: those of the frame. More are copies of some, a neighbour's distance aside");
   visit("substeps", o.substeps, {.low = 1, .high = 1000}, "", "steps of the engine a frame");
+  visit(
+      "alpha", o.alpha, {.low = 0, .high = 1}, "",
+      "share of the model's force; the rest pulls to the reconstructed paths. 1: the model alone");
+  visit("pull-time", o.pull_time, {.low = 0.05, .high = 1e3}, "s",
+        "how soon that pull brings an animal back to its path");
 }
 
 // Root mean square distance from the reconstruction, over the animals that are in both.
@@ -42,7 +52,11 @@ struct Divergence {
   int animals = 0;             // in both
   double model_rms = 0;        // [m]
   double straight_on_rms = 0;  // of flight at the starting velocity [m]
+  // Between this flight and one whose start was moved by kPerturbation per axis; 0 when guided [m].
+  double perturbed_rms = 0;
 };
+
+inline constexpr double kPerturbation = 1e-3;  // [m]
 
 struct ReplayResult {
   Trajectories replayed;  // frames as in the reconstruction; ids too, copies get ids above them
@@ -50,11 +64,12 @@ struct ReplayResult {
   std::vector<Divergence> divergence;  // by frame, the start left out
 };
 
-// Cruising speeds are each animal's mean speed in the reconstruction. Throws InputError for a model
-// or parameter that does not exist, std::invalid_argument for a frame without animals.
+// Cruising speeds are each animal's mean speed in the reconstruction. `walls`: the box of the
+// model's boundary term, if any. Throws InputError for a model or parameter that does not exist,
+// std::invalid_argument for a frame without animals.
 ReplayResult Replay(const ReplayOptions& options, const ModelSpec& model,
-                    const Trajectories& reconstruction, double fps, std::uint64_t seed, int threads,
-                    const Progress& progress = {});
+                    const std::optional<Region>& walls, const Trajectories& reconstruction,
+                    double fps, std::uint64_t seed, int threads, const Progress& progress = {});
 
 }  // namespace flocklift
 

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "simulate/core/rng.h"
@@ -37,7 +40,7 @@ TEST(Replay, OfATrueFlockByItsOwnModelStaysWithIt) {
   ReplayOptions options;
   options.frame = 1;
   options.substeps = scene.substeps;
-  const ReplayResult result = Replay(options, scene.species[0].model, truth, kFps, 1, 1);
+  const ReplayResult result = Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1);
   ASSERT_EQ(result.divergence.size(), 89U);
   const Divergence& end = result.divergence.back();
   EXPECT_EQ(end.animals, 12);
@@ -54,8 +57,8 @@ TEST(Replay, ByAnotherModelParts) {
   ReplayOptions options;
   options.frame = 1;
   const double right =
-      Replay(options, scene.species[0].model, truth, kFps, 1, 1).divergence.back().model_rms;
-  EXPECT_GT(Replay(options, wrong, truth, kFps, 1, 1).divergence.back().model_rms, 3 * right);
+      Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1).divergence.back().model_rms;
+  EXPECT_GT(Replay(options, wrong, {}, truth, kFps, 1, 1).divergence.back().model_rms, 3 * right);
 }
 
 // Two animals straight on and never near each other: no model moves them from their line.
@@ -78,7 +81,7 @@ Trajectories Pair() {
 
 TEST(Replay, KeepsFramesAndIdsAndStartsWhereMostAre) {
   const ReplayResult result = Replay(
-      {}, {.name = "boids", .parameters = {}, .where = {}, .where_of = {}}, Pair(), kFps, 1, 1);
+      {}, {.name = "boids", .parameters = {}, .where = {}, .where_of = {}}, {}, Pair(), kFps, 1, 1);
   EXPECT_EQ(result.start_frame, 3);
   ASSERT_EQ(result.replayed.trajectories.size(), 2U);
   EXPECT_EQ(result.replayed.trajectories[0].id, 4);
@@ -93,8 +96,8 @@ TEST(Replay, MoreAnimalsAreCopiesWithNewIdsAndTheSameAtAnyThreadCount) {
   ReplayOptions options;
   options.count = 50;
   const ModelSpec boids{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
-  const ReplayResult one = Replay(options, boids, Pair(), kFps, 7, 1);
-  const ReplayResult two = Replay(options, boids, Pair(), kFps, 7, 2);
+  const ReplayResult one = Replay(options, boids, {}, Pair(), kFps, 7, 1);
+  const ReplayResult two = Replay(options, boids, {}, Pair(), kFps, 7, 2);
   ASSERT_EQ(one.replayed.trajectories.size(), 50U);
   EXPECT_EQ(one.replayed.trajectories[2].id, 10);
   for (std::size_t k = 0; k < 50; ++k) {
@@ -103,11 +106,90 @@ TEST(Replay, MoreAnimalsAreCopiesWithNewIdsAndTheSameAtAnyThreadCount) {
   }
 }
 
+TEST(Replay, WithoutPullTheGuidedFlightIsTheEngines) {
+  // The double-precision terms of the guided flight and the engine's kernels: one model.
+  const Scene scene = OpenSkyScene();
+  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  ReplayOptions options;
+  options.frame = 1;
+  options.duration = 1;
+  const ReplayResult engine = Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1);
+  options.alpha = 1 - 1e-12;
+  const ReplayResult guided = Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1);
+  for (std::size_t k = 0; k < 12; ++k) {
+    const Vec3d apart = guided.replayed.trajectories[k].points.back().position -
+                        engine.replayed.trajectories[k].points.back().position;
+    EXPECT_LT(Norm(apart), 1e-3);
+  }
+}
+
+TEST(Replay, ThePullKeepsAForeignModelOnThePath) {
+  const Scene scene = OpenSkyScene();
+  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  ModelSpec wrong = scene.species[0].model;
+  wrong.parameters["alpha_c"] = 3;
+  ReplayOptions options;
+  options.frame = 1;
+  double before = 1e9;
+  for (const double alpha : {1.0, 0.9, 0.5, 0.0}) {
+    options.alpha = alpha;
+    const double apart = Replay(options, wrong, {}, truth, kFps, 1, 1).divergence.back().model_rms;
+    EXPECT_LT(apart, before) << alpha;
+    before = apart;
+  }
+  EXPECT_LT(before, 0.3);
+}
+
+TEST(Replay, CopiesAreGuidedBesideTheirSource) {
+  ReplayOptions options;
+  options.count = 6;
+  options.alpha = 0.2;
+  const ModelSpec boids{
+      .name = "boids", .parameters = {{"alpha_s", 0}}, .where = {}, .where_of = {}};
+  const Trajectories pair = Pair();
+  const ReplayResult result = Replay(options, boids, {}, pair, kFps, 7, 1);
+  for (const Trajectory& copy : result.replayed.trajectories) {
+    const double moved = copy.points.back().position.x - copy.points.front().position.x;
+    EXPECT_NEAR(moved, 10.0 * 17 / kFps, 0.5) << copy.id;
+  }
+}
+
+TEST(Replay, APerturbationIsFollowed) {
+  const Scene scene = OpenSkyScene();
+  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  ReplayOptions options;
+  options.frame = 1;
+  const ReplayResult result = Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1);
+  const double first = result.divergence.front().perturbed_rms;
+  EXPECT_NEAR(first, std::sqrt(3.0) * kPerturbation, 0.5 * kPerturbation);
+  EXPECT_GT(result.divergence.back().perturbed_rms, 0);
+}
+
+TEST(Replay, WallsHoldTheFlock) {
+  const ModelSpec boids{.name = "boids",
+                        .parameters = {{"s_min", 0}, {"cruise", 0}, {"noise", 0}},
+                        .where = {},
+                        .where_of = {}};
+  const Region walls{{-1e6, -1e6, -1e6}, {12, 1e6, 1e6}};
+  ReplayOptions options;
+  options.duration = 4;
+  const auto furthest = [&](const std::optional<Region>& box) {
+    double x = -1e9;
+    for (const Trajectory& t :
+         Replay(options, boids, box, Pair(), kFps, 1, 1).replayed.trajectories) {
+      for (const TrajectoryPoint& point : t.points) x = std::max(x, point.position.x);
+    }
+    return x;
+  };
+  EXPECT_GT(furthest({}), 30);
+  EXPECT_LT(furthest(walls), 25);
+}
+
 TEST(Replay, RefusesAFrameWithoutAnimals) {
   ReplayOptions options;
   options.frame = 1;
   const ModelSpec boids{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
-  EXPECT_THROW(Replay(options, boids, Pair(), kFps, 1, 1), std::invalid_argument);
+  EXPECT_THROW(Replay(options, boids, {}, Pair(), kFps, 1, 1), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The flag --walls X0,Y0,Z0,X1,Y1,Z1 of fit and replay: the box of a model's boundary term [m].
+
+#ifndef FLOCKLIFT_TOOLS_WALLS_H_
+#define FLOCKLIFT_TOOLS_WALLS_H_
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "simulate/core/scene.h"
+
+namespace flocklift {
+
+void AddWallsFlag(CLI::App& command, std::string* text);
+
+// Nothing for an empty text. Throws std::invalid_argument when it is no box.
+std::optional<Region> ParseWalls(const std::string& text);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TOOLS_WALLS_H_
