@@ -7,6 +7,7 @@
 #define FLOCKLIFT_SIMULATE_CORE_PARAMETERS_H_
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,9 @@ struct ParameterPosterior {
 struct Parameters {
   ModelSpec model;
   ParameterPosterior posterior;
+  // What the model was fitted with besides, as in a scene: [[goal]], and [world] box.
+  std::vector<GoalSpec> goals = {};
+  std::optional<Region> walls = {};
 };
 
 // InputError with file, line and mend. Whether the model and its parameters exist is checked where

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -33,6 +34,19 @@ ModelSpec ReadModel(const toml::table& table, const std::string& name) {
   }
   settings.FailUnknown();
   return model;
+}
+
+GoalSpec ReadGoal(const toml::table& table, const std::string& name) {
+  Settings settings(table, name, "[[goal]]");
+  GoalSpec goal;
+  if (!settings.Vector("position", &goal.position, false)) {
+    settings.FailMissing("position", "say where the goal is: position = [x, y, z]");
+  }
+  settings.Number("radius", &goal.radius, {0, 1e6});
+  settings.Number("period", &goal.period, {0, 1e6});
+  settings.Number("weight", &goal.weight, {0, 1e6});
+  settings.FailUnknown();
+  return goal;
 }
 
 class PosteriorReader {
@@ -168,6 +182,14 @@ Parameters ParseParameters(std::string_view text, const std::string& name) {
   if (const toml::table* table = settings.FindTable("posterior")) {
     parameters.posterior = PosteriorReader(*table, name, parameters.model).Read();
   }
+  settings.EachTable(
+      "goal", [&](const toml::table& table) { parameters.goals.push_back(ReadGoal(table, name)); });
+  if (const toml::table* table = settings.FindTable("world")) {
+    Settings world(*table, name, "[world]");
+    Region walls;
+    if (world.Corners("box", &walls.low, &walls.high, false)) parameters.walls = walls;
+    world.FailUnknown();
+  }
   settings.FailUnknown();
   return parameters;
 }
@@ -201,6 +223,18 @@ std::string FormatParameters(const Parameters& parameters) {
   const auto truth = [](bool value) { return std::string(value ? "true" : "false"); };
   fmt::format_to(out, "{}]\ndetermined = {}\n", size > 0 ? "\n" : "",
                  FormatList(posterior.determined, truth));
+  const auto vector = [](const Vec3d& v) {
+    return FormatList(std::array{v.x, v.y, v.z}, TomlNumber);
+  };
+  if (parameters.walls) {
+    fmt::format_to(out, "\n[world]\nbox = [{}, {}]\n", vector(parameters.walls->low),
+                   vector(parameters.walls->high));
+  }
+  for (const GoalSpec& goal : parameters.goals) {
+    fmt::format_to(out, "\n[[goal]]\nposition = {}\nradius = {}\nperiod = {}\nweight = {}\n",
+                   vector(goal.position), TomlNumber(goal.radius), TomlNumber(goal.period),
+                   TomlNumber(goal.weight));
+  }
   return text;
 }
 

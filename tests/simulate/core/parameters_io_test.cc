@@ -23,6 +23,9 @@ Parameters Example() {
                           .sd = {0.25, INFINITY},
                           .correlation = {1, -0.7, -0.7, 1},
                           .determined = {true, false}};
+  parameters.goals = {
+      {.species = {}, .position = {1, -2, 0.1}, .radius = 3, .period = 20, .weight = 1.0 / 3}};
+  parameters.walls = Region{{-1, -2, -3}, {1, 2, 3.5}};
   return parameters;
 }
 
@@ -37,6 +40,14 @@ TEST(Parameters, SurviveAFile) {
   EXPECT_EQ(read.posterior.sd, written.posterior.sd);
   EXPECT_EQ(read.posterior.correlation, written.posterior.correlation);
   EXPECT_EQ(read.posterior.determined, written.posterior.determined);
+  ASSERT_EQ(read.goals.size(), 1U);
+  EXPECT_EQ(read.goals[0].position, written.goals[0].position);
+  EXPECT_EQ(read.goals[0].radius, 3);
+  EXPECT_EQ(read.goals[0].period, 20);
+  EXPECT_EQ(read.goals[0].weight, 1.0 / 3);
+  ASSERT_TRUE(read.walls.has_value());
+  EXPECT_EQ(read.walls->low, written.walls->low);
+  EXPECT_EQ(read.walls->high, written.walls->high);
   EXPECT_EQ(read.model.where, (folder / "parameters.toml").string() + ":2");
   EXPECT_EQ(read.model.WhereOf("b"), (folder / "parameters.toml").string() + ":6");
 }
@@ -67,6 +78,10 @@ TEST(Parameters, FaultsAreTold) {
       {"[model]\nname = \"a\"\nparameter = 3\n", 3, "did you mean `parameters`?"},
       {"[model]\nname = \"a\"\nparameters = { k = \"x\" }\n", 3, "`k` in [model.parameters]"},
       {model + "[posterio]\n", 6, "did you mean `posterior`?"},
+      {model + "[[goal]]\nweight = 1\n", 6, "position is missing"},
+      {model + "[[goal]]\nposition = [0, 0, 0]\nspecies = \"a\"\n", 8, "unknown key `species`"},
+      {model + "[world]\nbox = 3\n", 7, "box"},
+      {model + "[world]\nwalls = 3\n", 7, "unknown key `walls`"},
       {posterior, 6, "free is missing"},
       {posterior + "free = \"a\"\n", 7, "free in [posterior] is not a list"},
       {posterior + "free = [1]\n", 7, "free holds no name"},
