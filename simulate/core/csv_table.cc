@@ -202,6 +202,9 @@ TableContents ReadCsvTable(std::istream& stream, const std::string& name, const 
   while (reader.Next(&line)) {
     line = Trim(line);
     if (line.empty()) continue;
+    if (reader.line() == 1 && line.starts_with("\x89HDF")) {
+      contents.place.Fail(0, "this is an HDF5 file", "give it a name that ends in .h5");
+    }
     if (line.front() == '#') {
       ReadComment(line, contents.place, reader.line(), &contents.fps);
       continue;

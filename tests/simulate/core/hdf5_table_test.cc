@@ -160,6 +160,15 @@ TEST_F(Hdf5Table, NotHdf5) {
   ExpectRefused("not an HDF5 file");
 }
 
+TEST_F(Hdf5Table, OfAnotherName) {
+  {
+    File file(folder_ / "table.csv");
+    AddRows(&file, {});
+  }
+  path_ = folder_ / "table.csv";
+  ExpectRefused("this is an HDF5 file; give it a name that ends in .h5");
+}
+
 TEST_F(Hdf5Table, NoGroup) {
   { File file(path_, "/tracks"); }
   ExpectRefused("there is no group /trajectories; put the datasets frame,id,x,y,z into it");
