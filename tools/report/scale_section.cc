@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/plot/markup.h"
@@ -99,28 +100,30 @@ void AddParametersSection(const ReportData& data, Page* page, Missing* missing) 
   const Parameters& parameters = *data.run.parameters;
   const ParameterPosterior& posterior = parameters.posterior;
   page->BeginSection("parameters", "Fitted model: " + parameters.model.name);
-  Table table{{"parameter", "value", "1 sd", "sd / value", "do the data determine it?"}, {}};
-  const auto position = [&](const std::string& name) {
-    for (std::size_t k = 0; k < posterior.free.size(); ++k) {
-      if (posterior.free[k] == name) return static_cast<int>(k);
-    }
-    return -1;
-  };
+  Table free{{"free parameter", "value", "1 sd", "sd / value", "do the data determine it?"}, {}};
+  Table fixed{{"held fixed", "value"}, {}};
   for (const auto& [name, value] : parameters.model.parameters) {
-    const int k = position(name);
-    if (k < 0) {
-      table.rows.push_back({name, NumberText(value, 4), "", "", "held fixed"});
+    const auto found = std::find(posterior.free.begin(), posterior.free.end(), name);
+    if (found == posterior.free.end()) {
+      fixed.rows.push_back({name, NumberText(value, 4)});
       continue;
     }
+    const auto k = static_cast<std::size_t>(found - posterior.free.begin());
     const double sd = posterior.sd.at(k);
-    table.rows.push_back(
-        {name, NumberText(value, 4), NumberText(sd),
-         value != 0 && std::isfinite(sd) ? NumberText(100 * sd / std::abs(value), 2) + " %" : "",
-         posterior.determined.at(k) ? "yes" : "no"});
+    const bool has_ratio = value != 0 && std::isfinite(sd);
+    free.rows.push_back({name, NumberText(value, 4), NumberText(sd),
+                         has_ratio ? NumberText(100 * sd / std::abs(value), 2) + " %" : "",
+                         posterior.determined.at(k) ? "yes" : "no"});
   }
-  page->AddTable(table,
-                 "Parameters of the model as fitted to the reconstructed paths, in SI units. What "
-                 "the data do not determine stays near where it started.");
+  page->AddTable(
+      free,
+      "As fitted to the reconstructed paths, in SI units. What the data do not determine "
+      "may be almost anything.");
+  if (!fixed.rows.empty()) {
+    page->BeginDetails("Parameters that were held fixed");
+    page->AddTable(fixed);
+    page->EndDetails();
+  }
   const std::size_t n = posterior.free.size();
   if (n < 2 || n > 16 || posterior.correlation.size() != n * n) return;
   page->BeginDetails("Correlation of the free parameters");

@@ -17,9 +17,10 @@
 namespace flocklift {
 namespace {
 
-constexpr std::size_t kMostPaths = 150;
+constexpr std::size_t kMostPaths = 400;
 constexpr std::size_t kMostErrorBars = 150;
 constexpr int kBridged = 6;      // frames; a path goes on over shorter gaps
+constexpr double kTrail = 1;     // of each animal of a large flock [s]
 constexpr double kLongest = 20;  // a longer sequence shows this much of its paths [s]
 
 struct Moment {
@@ -40,8 +41,13 @@ Moment ChooseMoment(const ReportData& data) {
       moment.frame = statistics.frame;
     }
   }
-  const int window = static_cast<int>(kLongest * data.run.fps.value_or(30));
-  if (span.last - span.first > window) {
+  const double frames_a_second = data.run.fps.value_or(30);
+  const int window = static_cast<int>(kLongest * frames_a_second);
+  if (most > static_cast<int>(kMostErrorBars)) {  // a large flock: trails instead of paths
+    moment.first_path_frame =
+        std::max(span.first, moment.frame - static_cast<int>(kTrail * frames_a_second));
+    moment.last_path_frame = moment.frame;
+  } else if (span.last - span.first > window) {
     moment.first_path_frame = std::max(span.first, moment.frame - window / 2);
     moment.last_path_frame = std::min(span.last, moment.frame + window / 2);
   }

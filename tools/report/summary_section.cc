@@ -97,7 +97,7 @@ void AddTruthCards(const ReportData& data, std::vector<Card>* cards) {
   if (run.tracks && run.true_tracks) {
     const TrackScores scores = ScoreTracks({}, *run.true_tracks, *run.tracks);
     cards->push_back({FixedText(scores.hota.hota, 3), "Tracking against the truth: HOTA",
-                      fmt::format("IDF1 {}, {} identity switches",
+                      fmt::format("IDF1 {}; identity switches: {}",
                                   FixedText(scores.identity.idf1, 3), scores.clear.id_switches)});
   }
   if (!data.matched) return;
