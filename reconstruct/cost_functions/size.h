@@ -9,8 +9,10 @@
 // (P is the derivative of the projection times z, so a stretch towards the image's edge is in it).
 //   e = log size - (log wingspan + bias + ratio - L + log sqrt(Q))
 // `bias` is the individual's, `ratio`, `trunk` and `up` are the flock's: how a wingspan relates to
-// a box or a blob is not known beforehand. Wings lie level, s = g x up; where gravity is not known
-// they are anywhere around g, and s and u count by their mean.
+// a box or a blob is not known beforehand. Wings are held level, s = g x up; where gravity
+// is not known they are anywhere around g, and s and u count by their mean. (Banking them with the
+// turn would let the size of a bird say how strongly it turns, in m/s^2: a scale that is not to be
+// trusted.)
 
 #ifndef FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_SIZE_H_
 #define FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_SIZE_H_
@@ -48,8 +50,7 @@ struct SizeError {
     const T along = seen(w) / speed2;
     T across = 0.5 * (whole - along);
     if (up_in_cam) {
-      const Vec3<T> up{T(up_in_cam->x), T(up_in_cam->y), T(up_in_cam->z)};
-      const Vec3<T> side = Cross(w, up);
+      const Vec3<T> side = Cross(w, Vec3<T>{T(up_in_cam->x), T(up_in_cam->y), T(up_in_cam->z)});
       // Of a heading within some 10 degrees of the vertical the side is less and less certain.
       const T certain = 0.03 * speed2;
       across = (seen(side) + certain * across) / (Dot(side, side) + certain);

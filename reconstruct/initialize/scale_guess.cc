@@ -65,7 +65,7 @@ void AddImageAccelerations(const Segment& segment, std::vector<double>* squares)
 
 double LateralSpread(const Segments& segments) {
   struct Moments {
-    double n = 0, x = 0, y = 0, squares = 0;
+    double n = 0, x = 0, y = 0, xx = 0, yy = 0;
   };
   std::map<int, Moments> frames;
   for (const Segment& segment : segments.segments) {
@@ -74,16 +74,18 @@ double LateralSpread(const Segments& segments) {
       m.n += 1;
       m.x += s.ray.x;
       m.y += s.ray.y;
-      m.squares += s.ray.x * s.ray.x + s.ray.y * s.ray.y;
+      m.xx += s.ray.x * s.ray.x;
+      m.yy += s.ray.y * s.ray.y;
     }
   }
-  double sum = 0, count = 0;
+  double x = 0, y = 0, count = 0;
   for (const auto& [frame, m] : frames) {
     if (m.n < 2) continue;
-    sum += (m.squares - (m.x * m.x + m.y * m.y) / m.n) / 2;
+    x += m.xx - m.x * m.x / m.n;
+    y += m.yy - m.y * m.y / m.n;
     count += m.n - 1;
   }
-  return count > 0 ? std::sqrt(std::max(sum / count, 1e-8)) : 0.1;
+  return count > 0 ? std::sqrt(std::max(std::max(x, y) / count, 1e-8)) : 0.1;
 }
 
 }  // namespace

@@ -13,10 +13,11 @@
 namespace flocklift {
 
 struct ScaleGuess {
-  double log_depth = 0;       // of the flock's middle [log m]
-  double log_speed = 0;       // mean of the flock [log m/s]
-  double log_width = 0;       // apparent width in metres of an animal over all views [log m]
-  double lateral_spread = 0;  // sd of the animals' rays around the flock's middle, one coordinate
+  double log_depth = 0;  // of the flock's middle [log m]
+  double log_speed = 0;  // mean of the flock [log m/s]
+  double log_width = 0;  // apparent width in metres of an animal over all views [log m]
+  double lateral_spread =
+      0;  // sd of the animals' rays around the flock's middle, the wider coordinate
   double image_acceleration = 0;     // robust sd of a ray's acceleration, one coordinate [1/s^2]
   double log_near = 0, log_far = 0;  // bounds for searching [log m]
 };

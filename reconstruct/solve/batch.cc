@@ -16,6 +16,9 @@ namespace {
 
 using namespace internal;  // NOLINT: the method's own parts
 
+// What a first guess of a spread is worth, in animals. The width of the flock, which is seen, tells
+// its depth better than depths do.
+constexpr double kGuessWorth = 4, kWidthWorth = 30;
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-9, kMostDamping = 1e9;
 
 // Everything that moves while solving.
@@ -190,7 +193,7 @@ bool Solver::Minimize(int max_iterations, BatchReport* report,
 }
 
 // Expectation maximisation of the spreads: mean square of an error plus its posterior variance,
-// with the first guess worth `kGuessWorth` animals.
+// with the first guess worth a few animals.
 class SpreadEstimator {
  public:
   SpreadEstimator(const Spreads& guess, const Spreads& now) : guess_(guess), now_(now) {}
@@ -205,20 +208,19 @@ class SpreadEstimator {
   }
 
   void Update(double birds, Spreads* spreads) const {
-    constexpr double kGuessWorth = 4;  // animals
-    const auto update = [&](Term term, double guess, double* sd) {
+    const auto update = [&](Term term, double guess, double* sd, double worth = kGuessWorth) {
       const std::size_t k = static_cast<std::size_t>(term);
       if (counts_[k] == 0) return;
       const double n = birds;
       const double mean = squares_[k] / counts_[k];
-      const double next = std::sqrt((n * mean + kGuessWorth * guess * guess) / (n + kGuessWorth));
+      const double next = std::sqrt((n * mean + worth * guess * guess) / (n + worth));
       *sd = std::clamp(next, 0.1 * guess, 10 * guess);
     };
     update(Term::kAcceleration, guess_.acceleration.sd, &spreads->acceleration.sd);
     update(Term::kSpeed, guess_.speed.sd, &spreads->speed.sd);
     update(Term::kSize, guess_.size.sd, &spreads->size.sd);
     update(Term::kClimb, guess_.climb.sd, &spreads->climb.sd);
-    update(Term::kDepth, guess_.depth.sd, &spreads->depth.sd);
+    update(Term::kDepth, guess_.depth.sd, &spreads->depth.sd, kWidthWorth);
     update(Term::kSpeedSpread, guess_.speed_between, &spreads->speed_between);
   }
 

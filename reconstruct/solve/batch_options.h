@@ -15,13 +15,13 @@ struct BatchOptions {
   double acceleration_time = 0.7;
   double speed_spread = 0.1;
   double speed_sd = 0.1;
-  double speed_time = 1.5;
+  double speed_time = 0.8;
   double size_sd = 0.15;
-  double size_time = 0.3;
+  double size_time = 0.15;
   double size_ratio_sd = 0.15;
   double climb_sd = 0.12;
-  double climb_time = 2;
-  double depth_time = 4;
+  double climb_time = 1;
+  double depth_time = 15;
   double pixel_sd = 0.25;
   double jump = 12;
   bool level_flight = true;

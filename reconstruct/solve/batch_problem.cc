@@ -103,6 +103,15 @@ class MarkovRows {
   Feature before_;
 };
 
+// The shared depth says where an animal is, not how it gets there: it counts at a few knots, each
+// independent of the others, spread evenly over the path.
+bool CountsForDepth(const BatchModel& model, const Bird& bird, int knot) {
+  const double knots = model.spreads.depth.time / model.knot_interval;
+  const int count = std::max(1, static_cast<int>(std::lround(bird.knots / knots)));
+  const auto passed = [&](int k) { return (2 * k * count + bird.knots) / (2 * bird.knots); };
+  return passed(knot) != passed(knot - 1);
+}
+
 // All Markov errors of one knot, in a fixed order.
 template <typename Take>
 void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
@@ -146,7 +155,7 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
                           size(path, x[0], x[1], x[2], x[3], error);
                         })[0]);
   }
-  if (model.use_depth) {
+  if (model.use_depth && CountsForDepth(model, bird, knot)) {
     const double place = std::clamp((bird.first_knot + knot) * model.knot_interval / kDepthKnotTime,
                                     0.0, model.depth_knots - 1.0);
     const int left = std::min(static_cast<int>(place), std::max(0, model.depth_knots - 2));
@@ -337,9 +346,12 @@ void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd
 
 void ForEachError(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                   int stride, const RowSink& take) {
-  for (int knot = 0; knot < bird.knots; knot += stride) {
+  for (int knot = 0; knot < bird.knots; ++knot) {
+    const bool on_stride = knot % stride == 0;
+    if (!on_stride && !(model.use_depth && CountsForDepth(model, bird, knot))) continue;
     ForEachFeature(model, bird, shared, true, knot,
                    [&](Term term, int /*axis*/, const Feature& feature) {
+                     if (!on_stride && term != Term::kDepth) return;
                      ResidualRow row;
                      row.first = 3 * knot;
                      row.residual = feature.value;
