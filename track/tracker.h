@@ -25,9 +25,9 @@
 namespace flocklift {
 
 struct TrackerOptions {
-  DetectorOptions detect;
-  AssociationOptions associate;
-  StitchOptions stitch;
+  DetectorOptions detect = {};
+  AssociationOptions associate = {};
+  StitchOptions stitch = {};
   int min_length = 5;       // a track with fewer sightings is dropped
   double min_travel = 0.7;  // a long track that stays within so many of its sizes stands still
 };

@@ -47,7 +47,7 @@ struct TrackPoint {
   double variance = 1;           // per axis [px^2]
   double agility = 1;            // factor on the process noise up to this frame
   double width = 0, height = 0;  // of its box [px]
-  Shape shape;
+  Shape shape = {};
   bool shared = false;  // the blob held others too
 };
 

@@ -18,32 +18,29 @@ constexpr int kPasses = 3;
 constexpr double kGridRows = 120;
 constexpr double kMaskSds = 3;
 
-// Quantile of |values| by a histogram of 1/4 grey level.
+// Median of |values|, where the values were rounded to whole grey levels: each stands for all that
+// is nearest to it.
 class AbsoluteHistogram {
  public:
   void Add(float value) {
-    ++counts_[static_cast<std::size_t>(std::min(std::abs(value) * kPerLevel, kBins - 1.0f))];
+    ++counts_[static_cast<std::size_t>(std::min(std::abs(value) + 0.5f, kBins - 1.0f))];
     ++total_;
   }
-  int total() const { return total_; }
   double Median() const {
     int below = 0;
     for (std::size_t bin = 0; bin < kBins; ++bin) {
-      if (2L * (below + counts_[bin]) >= total_) {
-        const double share =
-            counts_[bin] == 0 ? 0.5
-                              : (0.5 * static_cast<double>(total_) - static_cast<double>(below)) /
-                                    static_cast<double>(counts_[bin]);
-        return (static_cast<double>(bin) + share) / kPerLevel;
+      const int count = counts_[bin];
+      if (count > 0 && 2L * (below + count) >= total_) {
+        const double share = (0.5 * total_ - below) / count;
+        return bin == 0 ? 0.5 * share : static_cast<double>(bin) - 0.5 + share;
       }
-      below += counts_[bin];
+      below += count;
     }
     return 0;
   }
 
  private:
-  static constexpr std::size_t kBins = 256;
-  static constexpr float kPerLevel = 4;  // larger values share the last bin
+  static constexpr std::size_t kBins = 257;
   std::array<int, kBins> counts_{};
   int total_ = 0;
 };
@@ -153,7 +150,8 @@ double LocalBackground::Interpolate(const std::vector<float>& field, double x, d
          fy * ((1 - fx) * at[below] + fx * at[below + right]);
 }
 
-LocalBackground EstimateBackground(const GrayImage& image, double window, double least_noise) {
+LocalBackground EstimateBackground(const GrayImage& image, double window, double least_noise,
+                                   double least_outlier) {
   FLOCKLIFT_DCHECK(image.width > 0 && image.height > 0);
   const int factor = std::max(1, static_cast<int>(std::lround(image.height / kGridRows)));
 
@@ -174,7 +172,7 @@ LocalBackground EstimateBackground(const GrayImage& image, double window, double
         residuals.Add(static_cast<float>(values[k]) - level[k]);
       }
       const double sd = kSdOfMedianAbsolute * residuals.Median();
-      MaskOutliers(values, level, static_cast<float>(std::max(kMaskSds * sd, least_noise)), width,
+      MaskOutliers(values, level, static_cast<float>(std::max(kMaskSds * sd, least_outlier)), width,
                    height, &weights);
     }
     sums.Compute(values, weights, radius, &near_value, &near_weight);

@@ -3,7 +3,7 @@
 //
 // The sky behind the animals and its noise, from one frame alone: a local mean over a window wider
 // than an animal, from which whatever stands out has been taken away,
-//   B(x) = sum_w m I / sum_w m,   m = 0 where |I - B| > 3 sd (repeated),
+//   B(x) = sum_w m I / sum_w m,   m = 0 where |I - B| > max(3 sd, least outlier) (repeated),
 // and the noise's standard deviation by tile, 1.4826 median |I - B|. Clouds are smooth over the
 // window and pass into B; a change of light between frames (a fade, the sun) changes B at once.
 
@@ -33,8 +33,10 @@ struct LocalBackground {
 };
 
 // `window` [px] is the side of the local mean, three or so times the length of an animal.
-// `least_noise` bounds the noise from below: a rendered sky has none.
-LocalBackground EstimateBackground(const GrayImage& image, double window, double least_noise);
+// `least_noise` bounds the noise from below: a rendered sky has none. What differs by less than
+// `least_outlier` [grey levels] stays in the mean: so do the curves of a cloud.
+LocalBackground EstimateBackground(const GrayImage& image, double window, double least_noise,
+                                   double least_outlier);
 
 }  // namespace flocklift
 

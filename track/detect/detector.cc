@@ -17,6 +17,8 @@ namespace flocklift {
 namespace {
 
 constexpr double kLeastNoise = 0.7;         // [grey levels]: 8-bit pictures have no less
+constexpr double kLeastOutlier = 2;         // [grey levels]
+constexpr double kOutlierContrast = 0.1;    // a cell that differs by so much of the usual contrast
 constexpr double kLowOverHigh = 0.5;        // hysteresis
 constexpr double kWindowOverLength = 3;     // of the local mean, to the usual length
 constexpr double kLongestOverWindow = 1.2;  // a longer blob is no animal
@@ -149,7 +151,8 @@ void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
   cv::Mat smooth_view = View(smooth_);
   cv::GaussianBlur(View(image), smooth_view, cv::Size(3, 3), 0);
   const double window = Window(image.height);
-  const LocalBackground background = EstimateBackground(smooth, window, kLeastNoise);
+  const LocalBackground background = EstimateBackground(
+      smooth, window, kLeastNoise, std::max(kLeastOutlier, kOutlierContrast * usual_contrast_));
 
   const double sign = dark ? 1 : -1;
   const double least_contrast = options_.relative_contrast * usual_contrast_;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The motion of one animal that now glides and now turns: an interacting multiple model estimator
-// over the filters of kalman.h, whose modes differ in process noise, q_m = factor_m^2 q. Before
+// over the filters of kalman.h, whose modes (calm, usual, agile) differ in process noise,
+// q_m = factor_m^2 q. Before
 // each prediction the modes mix (mode n turns into m with probability T_nm),
 //   c_m = sum_n T_nm w_n,   x_m <- sum_n (T_nm w_n / c_m) x_n   (moment matched),
 // and a measurement reweighs them by their likelihoods, w_m ~ c_m N(z; x_m, P_m + r).
@@ -20,7 +21,7 @@ namespace flocklift {
 class MotionFilter {
  public:
   static constexpr int kModes = 3;
-  static constexpr std::array<double, kModes> kFactors{1, 4, 16};
+  static constexpr std::array<double, kModes> kFactors{0.25, 1, 4};
   static constexpr double kStay = 0.95;  // T_mm; the rest is spread evenly
 
   MotionFilter() = default;
@@ -42,7 +43,7 @@ class MotionFilter {
   void Mix();
 
   std::array<MotionState, kModes> modes_{};
-  std::array<double, kModes> weights_{0.9, 0.08, 0.02};
+  std::array<double, kModes> weights_{0.2, 0.6, 0.2};
   MotionState mean_;
 };
 

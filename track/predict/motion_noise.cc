@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "track/predict/motion_filter.h"
+#include <numbers>
 
 namespace flocklift {
 namespace {
 
 constexpr double kMostSurprise = 14;    // of one measurement: a wrong link is no lesson
 constexpr std::size_t kLeastPaths = 3;  // fewer teach nothing
-constexpr std::size_t kBankSamples = 3000;
+constexpr std::size_t kBankSamples = 8000;
 constexpr int kHorizon = 3;
 
 struct Nearest {
@@ -91,25 +90,28 @@ double Extent(const std::vector<Vec2d>& positions) {
   return std::hypot(high_x - low_x, high_y - low_y);
 }
 
+// -ln of the density of z [1/px^2].
+double Surprise(const MotionState& state, const Vec2d& z, double r) {
+  return 0.5 * SquaredInnovation(state, z, r) + std::log(2 * std::numbers::pi * (state.pp + r));
+}
+
 // Of the positions one frame and kHorizon frames ahead. The far look tells noise that comes and
 // goes (a wingbeat moves the blob's centre to and fro) from motion that stays.
 double LogLikelihood(std::span<const Path> paths, const MotionNoise& noise) {
   double sum = 0;
   for (const Path& path : paths) {
     const double q = noise.ProcessVariance(path.size), r = noise.MeasurementVariance(path.size);
-    MotionFilter filter({path.positions[0], {0, 0}, r, 0, noise.speed_sd * noise.speed_sd});
+    MotionState state{path.positions[0], {0, 0}, r, 0, noise.speed_sd * noise.speed_sd};
     for (std::size_t k = 1; k < path.positions.size(); ++k) {
-      filter.Predict(q);
+      Predict(&state, q);
       // Before the third, the velocity is not known.
-      if (k >= 3)
-        sum -= std::min(filter.NegativeLogLikelihood(path.positions[k], r), kMostSurprise);
+      if (k >= 3) sum -= std::min(Surprise(state, path.positions[k], r), kMostSurprise);
       if (k >= 3 && k + kHorizon - 1 < path.positions.size()) {
-        MotionFilter ahead = filter;
-        ahead.Predict(q, kHorizon - 1);
-        sum -= std::min(ahead.NegativeLogLikelihood(path.positions[k + kHorizon - 1], r),
-                        kMostSurprise);
+        MotionState ahead = state;
+        Predict(&ahead, q, kHorizon - 1);
+        sum -= std::min(Surprise(ahead, path.positions[k + kHorizon - 1], r), kMostSurprise);
       }
-      filter.Update(path.positions[k], r);
+      Update(&state, path.positions[k], r);
     }
   }
   return sum;

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "track/detect/watershed.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/track/pictures.h"
+
+namespace flocklift {
+namespace {
+
+constexpr int kWidth = 40, kHeight = 24;
+
+std::vector<float> Contrast(const std::vector<SoftBlob>& blobs) {
+  std::vector<float> contrast(kWidth * kHeight, 0);
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      double sum = 0;
+      for (const SoftBlob& b : blobs) sum += std::abs(BlobValue(b, u, v));
+      if (sum > 4) contrast[v * kWidth + u] = static_cast<float>(sum);
+    }
+  }
+  return contrast;
+}
+
+int Parts(const std::vector<SoftBlob>& blobs) {
+  int parts = 0;
+  CutAtSaddles(Contrast(blobs), kWidth, kHeight, {}, &parts);
+  return parts;
+}
+
+TEST(WatershedTest, OnePeakStaysWhole) { EXPECT_EQ(Parts({{.center = {20.3, 11.6}}}), 1); }
+
+TEST(WatershedTest, TwoPeaksWithADeepSaddleAreCut) {
+  const std::vector<SoftBlob> blobs{{.center = {15, 12}}, {.center = {22, 12}}};
+  int parts = 0;
+  const std::vector<int> part = CutAtSaddles(Contrast(blobs), kWidth, kHeight, {}, &parts);
+  ASSERT_EQ(parts, 2);
+  EXPECT_NE(part[12 * kWidth + 15], part[12 * kWidth + 22]);
+  // The cut runs half way.
+  EXPECT_EQ(part[12 * kWidth + 15], part[12 * kWidth + 17]);
+  EXPECT_EQ(part[12 * kWidth + 22], part[12 * kWidth + 20]);
+  EXPECT_EQ(part[0], -1);
+}
+
+TEST(WatershedTest, AShallowSaddleIsNotCut) {
+  // Two equal Gaussians at 2.5 sd: the saddle is at 0.9 of the peaks.
+  EXPECT_EQ(Parts({{.center = {17, 12}}, {.center = {22, 12}}}), 1);
+}
+
+TEST(WatershedTest, ASpeckBesideAnAnimalIsNotCutOff) {
+  EXPECT_EQ(Parts({{.center = {15, 12}, .contrast = -100, .major_sd = 3, .minor_sd = 3},
+                   {.center = {25, 12}, .contrast = -30, .major_sd = 1, .minor_sd = 1}}),
+            1);
+}
+
+TEST(WatershedTest, ThreeInARow) {
+  EXPECT_EQ(Parts({{.center = {8, 12}}, {.center = {16, 12}}, {.center = {24, 12}}}), 3);
+}
+
+}  // namespace
+}  // namespace flocklift

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "track/predict/motion_filter.h"
+
+#include <gtest/gtest.h>
+
+#include "simulate/core/rng.h"
+
+namespace flocklift {
+namespace {
+
+MotionFilter Start() { return MotionFilter({{100, 100}, {4, 0}, 0.2, 0, 1}); }
+
+TEST(MotionFilterTest, DensityIntegratesToOne) {
+  MotionFilter filter = Start();
+  filter.Predict(0.01, 3);
+  double sum = 0;
+  constexpr double kStep = 0.25;
+  for (double x = -100; x <= 100; x += kStep) {
+    for (double y = -100; y <= 100; y += kStep) {
+      const Vec2d z{filter.state().position.x + x, filter.state().position.y + y};
+      sum += std::exp(-filter.NegativeLogLikelihood(z, 0.2)) * kStep * kStep;
+    }
+  }
+  EXPECT_NEAR(sum, 1, 0.01);
+}
+
+// With equal modes it is the Kalman filter.
+TEST(MotionFilterTest, GoesStraightLikeAKalmanFilter) {
+  MotionFilter filter = Start();
+  MotionState kalman{{100, 100}, {4, 0}, 0.2, 0, 1};
+  for (int frame = 1; frame <= 20; ++frame) {
+    filter.Predict(0);
+    Predict(&kalman, 0);
+    const Vec2d z{100 + 4.2 * frame, 100 + 0.1 * frame};
+    filter.Update(z, 0.2);
+    Update(&kalman, z, 0.2);
+    EXPECT_NEAR(filter.state().position.x, kalman.position.x, 1e-9);
+    EXPECT_NEAR(filter.state().velocity.y, kalman.velocity.y, 1e-9);
+    EXPECT_NEAR(filter.state().pp, kalman.pp, 1e-9);
+  }
+}
+
+// A sharp turn after a long glide: the filter follows and says so.
+TEST(MotionFilterTest, FollowsATurnThatOneModeLoses) {
+  constexpr double kQ = 1e-4;
+  MotionFilter filter = Start();
+  MotionState kalman{{100, 100}, {4, 0}, 0.2, 0, 1};
+  Rng rng(3);
+  Vec2d p{100, 100}, v{4, 0};
+  double glide_agility = 0, turn_agility = 0, filter_error = 0, kalman_error = 0;
+  for (int frame = 1; frame <= 60; ++frame) {
+    if (frame > 40 && frame <= 50) v = {v.x - 0.4, v.y + 0.5};
+    p = {p.x + v.x, p.y + v.y};
+    filter.Predict(kQ);
+    Predict(&kalman, kQ);
+    if (frame > 40) {
+      filter_error = std::max(filter_error, std::hypot(filter.state().position.x - p.x,
+                                                       filter.state().position.y - p.y));
+      kalman_error =
+          std::max(kalman_error, std::hypot(kalman.position.x - p.x, kalman.position.y - p.y));
+    }
+    const Vec2d z{p.x + 0.3 * rng.Normal(), p.y + 0.3 * rng.Normal()};
+    filter.Update(z, 0.1);
+    Update(&kalman, z, 0.1);
+    if (frame == 40) glide_agility = filter.agility();
+    if (frame == 47) turn_agility = filter.agility();
+  }
+  EXPECT_LT(filter_error, 4);
+  EXPECT_GT(kalman_error, 15);
+  EXPECT_GT(turn_agility, 5 * glide_agility);
+}
+
+}  // namespace
+}  // namespace flocklift
