@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <opencv2/aruco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -291,6 +292,7 @@ BoardView FindBoard(const Board& board, const Image& image, const std::string& n
   view.name = name;
   if (image.width < 16 || image.height < 16) return view;
   const cv::Mat gray = Gray(image);
+  view.sharpness = Sharpness(image);
   try {
     if (board.kind == Board::Kind::kChessboard) {
       FindChessboard(board, gray, &view);
@@ -313,6 +315,35 @@ double Sharpness(const Image& image) {
   cv::Scalar mean, sd;
   cv::meanStdDev(laplacian, mean, sd);
   return sd[0] * sd[0];
+}
+
+std::vector<BoardView> DropRepeats(std::vector<BoardView> views) {
+  constexpr double kSame = 2;  // [px]
+  const auto repeats = [](const BoardView& a, const BoardView& b) {
+    if (a.on_board != b.on_board) return false;
+    double sum = 0;
+    for (std::size_t k = 0; k < a.pixels.size(); ++k) {
+      const double du = a.pixels[k].x - b.pixels[k].x, dv = a.pixels[k].y - b.pixels[k].y;
+      sum += du * du + dv * dv;
+    }
+    return sum < kSame * kSame * static_cast<double>(a.pixels.size());
+  };
+  std::vector<std::size_t> by_sharpness(views.size());
+  std::iota(by_sharpness.begin(), by_sharpness.end(), std::size_t{0});
+  std::stable_sort(by_sharpness.begin(), by_sharpness.end(), [&](std::size_t a, std::size_t b) {
+    return views[a].sharpness > views[b].sharpness;
+  });
+  std::vector<std::size_t> kept;
+  for (const std::size_t i : by_sharpness) {
+    if (std::none_of(kept.begin(), kept.end(),
+                     [&](std::size_t k) { return repeats(views[i], views[k]); })) {
+      kept.push_back(i);
+    }
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<BoardView> different;
+  for (const std::size_t i : kept) different.push_back(std::move(views[i]));
+  return different;
 }
 
 std::vector<BoardView> SelectViews(const std::vector<BoardView>& views, int count) {

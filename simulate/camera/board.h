@@ -33,6 +33,7 @@ void CheckBoard(const Board& board);
 // The corners found in one picture, index k in both arrays; empty when no board was found.
 struct BoardView {
   std::string name;             // of the picture, for messages
+  double sharpness = 0;         // of the picture, see Sharpness
   std::vector<Vec3d> on_board;  // z = 0 [m]
   std::vector<Vec2d> pixels;    // [px]
   bool found() const { return !pixels.empty(); }
@@ -41,6 +42,10 @@ BoardView FindBoard(const Board& board, const Image& image, const std::string& n
 
 // How sharp a picture is: the variance of its Laplacian, for comparing neighbouring frames.
 double Sharpness(const Image& image);
+
+// Without repeats: of views whose corners agree within 2 px (root mean square) only the sharpest
+// stays, for together they would count the same errors twice.
+std::vector<BoardView> DropRepeats(std::vector<BoardView> views);
 
 // At most `count` of the views, those that differ most in place, size and tilt (farthest-point
 // choice from the largest view on), in their given order.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core/utility.hpp>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,12 @@
 
 namespace flocklift {
 namespace {
+
+// OpenCV's idle threads spin, which hurts where tests run side by side.
+class OneThread : public testing::Environment {
+  void SetUp() override { cv::setNumThreads(1); }
+};
+const auto* const kOneThread = testing::AddGlobalTestEnvironment(new OneThread);
 
 const Board kChessboard{.columns = 9, .rows = 6, .square = 0.025};
 const Board kCharuco{.kind = Board::Kind::kCharuco,
@@ -232,6 +239,21 @@ TEST(CalibrateCamera, SaysWhenTheViewsDetermineNothing) {
   EXPECT_FALSE(calibration.has_value());
   EXPECT_THROW(CalibrateCamera(ProjectedViews(truth, 3, 0.7, 0.1, 1), 800, 600, {}),
                std::invalid_argument);
+}
+
+TEST(DropRepeats, KeepsTheSharpestOfEach) {
+  const auto views = ProjectedViews(TrueCamera(), 3, 0.7, 0, 22);
+  auto again = views;
+  for (BoardView& view : again) {
+    view.name = "again";
+    for (Vec2d& p : view.pixels) p.x += 0.5;
+  }
+  again.insert(again.begin(), views.begin(), views.end());
+  const auto kept = DropRepeats(again);
+  ASSERT_EQ(kept.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(kept[i].pixels, views[i].pixels);
+  for (BoardView& view : again) view.sharpness = view.name == "again" ? 2 : 1;
+  for (const BoardView& view : DropRepeats(again)) EXPECT_EQ(view.name, "again");
 }
 
 TEST(SelectViews, TakesTheDifferentOnes) {
