@@ -92,63 +92,127 @@ Line FitLine(const Sighting* first, std::size_t count, double time) {
   return {{(sp.x - velocity.x * st) / n, (sp.y - velocity.y * st) / n}, velocity};
 }
 
-// How badly the motion before sighting k predicts the motion after it, as multiples of what noise
-// does to the two lines. Nothing near the ends.
+constexpr std::size_t kSide = 4;      // sightings that a line of motion is fitted to
+constexpr std::size_t kGapStep = 4;   // sightings
+constexpr std::size_t kGapSteps = 4;  // longest glitch: 16 sightings
+constexpr double kBridge = 4;         // robust sds within which two motions are one animal's
+
+// How badly the motion before sighting `first` predicts the motion from sighting `last` on, half
+// way between. Nothing near the ends.
 struct Mismatch {
   double position = 0, velocity = 0;
+
+  // The larger of the two in units of `limit`.
+  double Over(const Mismatch& limit) const {
+    return std::max(position / limit.position, velocity / limit.velocity);
+  }
 };
-std::optional<Mismatch> MismatchAt(const std::vector<Sighting>& s, std::size_t k) {
-  constexpr std::size_t kSide = 4;
-  if (k < kSide || k + kSide > s.size()) return std::nullopt;
-  const double time = 0.5 * (s[k - 1].time + s[k].time);
-  const Line before = FitLine(&s[k - kSide], kSide, time);
-  const Line after = FitLine(&s[k], kSide, time);
+std::optional<Mismatch> MismatchAcross(const std::vector<Sighting>& s, std::size_t first,
+                                       std::size_t last) {
+  if (first < kSide || last + kSide > s.size()) return std::nullopt;
+  const double time = 0.5 * (s[first - 1].time + s[last].time);
+  const Line before = FitLine(&s[first - kSide], kSide, time);
+  const Line after = FitLine(&s[last], kSide, time);
   return Mismatch{
       std::hypot(after.position.x - before.position.x, after.position.y - before.position.y),
       std::hypot(after.velocity.x - before.velocity.x, after.velocity.y - before.velocity.y)};
 }
 
-// Cuts where the jump is the largest around and far beyond what the whole flock does.
-void CutJumps(double jump, std::vector<Segment>* segments, int* cuts) {
+// What the whole flock does across so many sightings: robust sds of the mismatch.
+Mismatch UsualMismatch(const std::vector<Segment>& segments, std::size_t gap) {
   std::vector<double> positions, velocities;
-  for (const Segment& segment : *segments) {
+  for (const Segment& segment : segments) {
     for (std::size_t k = 0; k < segment.sightings.size(); ++k) {
-      if (const auto m = MismatchAt(segment.sightings, k)) {
+      if (const auto m = MismatchAcross(segment.sightings, k, k + gap)) {
         positions.push_back(m->position);
         velocities.push_back(m->velocity);
       }
     }
   }
-  // Medians of the length of a normal 2-vector are 1.18 sd.
-  const double position_limit = jump * Median(std::move(positions)) / 1.18;
-  const double velocity_limit = jump * Median(std::move(velocities)) / 1.18;
-  if (!(position_limit > 0) || !(velocity_limit > 0)) return;
+  constexpr double kMedianOfNormal2 = 1.18;  // of the length of a 2-vector
+  return {Median(std::move(positions)) / kMedianOfNormal2,
+          Median(std::move(velocities)) / kMedianOfNormal2};
+}
+
+// A range of sightings that do not show the animal's own motion, though it is the same animal's
+// before and after: a blob that held two, a wing at the edge of the picture.
+struct Glitch {
+  std::size_t first = 0, last = 0;
+};
+
+// The shortest glitch about the jump at k, if skipping it makes one motion of the two sides. An end
+// of the segment that is as short as a glitch is one.
+std::optional<Glitch> GlitchAt(const std::vector<Sighting>& s, std::size_t k,
+                               const std::vector<Mismatch>& usual) {
+  const std::size_t longest = kGapStep * kGapSteps;
+  if (k <= longest && k <= s.size() - k) return Glitch{0, k};
+  if (s.size() - k <= longest) return Glitch{k, s.size()};
+  for (std::size_t gap = 1; gap <= kGapSteps; ++gap) {
+    for (std::size_t before = 0; before <= gap; ++before) {
+      const std::size_t first = k - std::min(k, before * kGapStep);
+      const std::size_t last = first + gap * kGapStep;
+      const auto m = MismatchAcross(s, first, last);
+      if (m && m->Over(usual[gap]) <= kBridge) return Glitch{first, last};
+    }
+  }
+  return std::nullopt;
+}
+
+// Cuts where the jump is the largest around and far beyond what the whole flock does, unless it is
+// a glitch: that is left to the smoothness of the path, its sightings count little.
+void CutJumps(double jump, double doubt, std::vector<Segment>* segments, int* cuts) {
+  std::vector<Mismatch> usual;
+  for (std::size_t gap = 0; gap <= kGapSteps; ++gap) {
+    usual.push_back(UsualMismatch(*segments, gap * kGapStep));
+    if (!(usual.back().position > 0) || !(usual.back().velocity > 0)) return;
+  }
   std::vector<Segment> result;
   for (Segment& segment : *segments) {
-    const auto& s = segment.sightings;
+    auto& s = segment.sightings;
     std::vector<double> excess(s.size(), 0.0);
     for (std::size_t k = 0; k < s.size(); ++k) {
-      if (const auto m = MismatchAt(s, k)) {
-        excess[k] = std::max(m->position / position_limit, m->velocity / velocity_limit);
-      }
+      if (const auto m = MismatchAcross(s, k, k)) excess[k] = m->Over(usual[0]) / jump;
     }
-    std::size_t begin = 0;
+    std::vector<std::size_t> cut_before;
+    std::vector<Glitch> glitches;
     for (std::size_t k = 1; k < s.size(); ++k) {
-      const std::size_t low = k < 4 ? 0 : k - 4;
-      const std::size_t high = std::min(s.size(), k + 5);
+      const std::size_t low = k < kSide ? 0 : k - kSide;
+      const std::size_t high = std::min(s.size(), k + kSide + 1);
       const bool largest = std::max_element(excess.begin() + static_cast<std::ptrdiff_t>(low),
                                             excess.begin() + static_cast<std::ptrdiff_t>(high)) ==
                            excess.begin() + static_cast<std::ptrdiff_t>(k);
       if (excess[k] <= 1 || !largest) continue;
+      if (const auto glitch = GlitchAt(s, k, usual)) {
+        glitches.push_back(*glitch);
+      } else {
+        cut_before.push_back(k);
+      }
+    }
+    for (const Glitch& glitch : glitches) {
+      for (std::size_t k = glitch.first; k < glitch.last; ++k) {
+        s[k].ray_sd = doubt;
+        s[k].log_size.reset();
+      }
+    }
+    *cuts += static_cast<int>(cut_before.size());
+    cut_before.push_back(s.size());
+    std::size_t begin = 0;
+    for (const std::size_t end : cut_before) {
       result.push_back({segment.id,
                         {s.begin() + static_cast<std::ptrdiff_t>(begin),
-                         s.begin() + static_cast<std::ptrdiff_t>(k)}});
-      begin = k;
-      ++*cuts;
+                         s.begin() + static_cast<std::ptrdiff_t>(end)}});
+      begin = end;
     }
-    result.push_back({segment.id, {s.begin() + static_cast<std::ptrdiff_t>(begin), s.end()}});
   }
   *segments = std::move(result);
+}
+
+// A box that the edge of the picture cuts off shows neither the size nor the middle of the animal.
+bool IsCutOff(const Box& box, const Camera& camera) {
+  constexpr double kMargin = 1.5;  // [px]
+  return box.left < kMargin || box.top < kMargin ||
+         box.left + box.width > camera.width - 1 - kMargin ||
+         box.top + box.height > camera.height - 1 - kMargin;
 }
 
 }  // namespace
@@ -176,7 +240,12 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
       sighting.time = (d.frame - first_frame) / fps;
       sighting.ray = *ray;
       sighting.ray_sd = result.pixel_sd * (IsMeasured(d) ? 1 : options.interpolated_sd) / focal_px;
-      if (options.use_size && IsMeasured(d)) {
+      const bool cut_off = IsCutOff(d.box, camera);
+      if (cut_off) {
+        const double half_box_px = 0.5 * Diagonal(d.box.width, d.box.height);
+        sighting.ray_sd = std::max(sighting.ray_sd, half_box_px / focal_px);
+      }
+      if (options.use_size && IsMeasured(d) && !cut_off) {
         const double box_px = Diagonal(d.box.width, d.box.height);
         const double size_px =
             d.shape && box_over_shape
@@ -188,7 +257,10 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
     }
     if (!segment.sightings.empty()) result.segments.push_back(std::move(segment));
   }
-  if (options.jump > 0) CutJumps(options.jump, &result.segments, &result.cuts);
+  if (options.jump > 0) {
+    const double doubt = options.glitch_pixel_sd / camera.intrinsics.fx;
+    CutJumps(options.jump, doubt, &result.segments, &result.cuts);
+  }
   return result;
 }
 

@@ -33,9 +33,10 @@ struct Segment {
 };
 
 struct SegmentOptions {
-  double min_pixel_sd = 0.25;  // floor of the noise of an image position [px]
-  double jump = 12;            // cut where the motion jumps by so many robust sds; 0: never
-  double interpolated_sd = 5;  // sd of interpolated rows over that of measured ones
+  double min_pixel_sd = 0.25;   // floor of the noise of an image position [px]
+  double jump = 12;             // cut where the motion jumps by so many robust sds; 0: never
+  double glitch_pixel_sd = 10;  // noise of the sightings between the two sides of a glitch [px]
+  double interpolated_sd = 5;   // sd of interpolated rows over that of measured ones
   bool use_size = true;
 };
 
@@ -48,10 +49,13 @@ struct Segments {
   bool has_shapes = false;        // sizes come from shapes
 };
 
-// Every detection comes into exactly one segment. The noise is estimated from third differences of
-// the image positions (white noise of sd s gives them sqrt(20) s, a smooth flight next to nothing).
-// The size is sqrt(width^2 + height^2) of the box or, where there is a shape, that of its axes
-// times the flock's median ratio of the two: the same for any direction of a stretched body.
+// Every detection comes into exactly one segment. A jump of the motion that is over after a few
+// sightings (two animals in one blob) is no cut: those sightings lose their size and most of their
+// weight. So do boxes that the edge of the picture cuts off. The noise is estimated from third
+// differences of the image positions (white noise of sd s gives them sqrt(20) s, a smooth flight
+// next to nothing). The size is sqrt(width^2 + height^2) of the box or, where there is a shape,
+// that of its axes times the flock's median ratio of the two: the same for any direction of a
+// stretched body.
 Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const Camera& camera,
                       double fps);
 
