@@ -190,7 +190,7 @@ void CutJumps(double jump, double doubt, std::vector<Segment>* segments, int* cu
     }
     for (const Glitch& glitch : glitches) {
       for (std::size_t k = glitch.first; k < glitch.last; ++k) {
-        s[k].ray_sd = doubt;
+        s[k].ray_sd = std::max(s[k].ray_sd, doubt);
         s[k].log_size.reset();
       }
     }
