@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -44,7 +45,8 @@ class StageTest : public testing::Test {
     return true;
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / "flocklift_stage_test";
+  fs::path folder_ =
+      fs::path(testing::TempDir()) / ("flocklift_stage_test_" + std::to_string(getpid()));
   fs::path input_ = folder_ / "input.txt";
   CommonOptions common_;
 };
