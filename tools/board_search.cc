@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <mutex>
+#include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <tuple>
 #include <utility>
@@ -110,6 +112,8 @@ BoardSearch SearchPictures(const std::vector<fs::path>& pictures, const Board& b
   std::vector<std::pair<int, int>> sizes(pictures.size());
   std::int64_t done = 0;
   std::mutex mutex;
+  cv::setNumThreads(1);  // the pictures keep the threads busy
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to tell
   ParallelFor(threads, 0, count, 1, [&](std::int64_t first, std::int64_t) {
     const auto k = static_cast<std::size_t>(first);
     const Image image = ReadPicture(pictures[k]);
@@ -136,13 +140,15 @@ BoardSearch SearchPictures(const std::vector<fs::path>& pictures, const Board& b
       search.without.push_back(pictures[k].string());
     }
   }
+  search.views = DropRepeats(std::move(search.views));
   return search;
 }
 
 BoardSearch SearchVideo(const fs::path& video, const Board& board, int tries, int max_views,
-                        const Progress& progress) {
+                        int threads, const Progress& progress) {
   constexpr std::int64_t kUnknownStretch = 10;
   CheckBoard(board);
+  cv::setNumThreads(ResolveThreads(threads));
   VideoSource source(video);
   const auto frames = source.frame_count();
   const std::int64_t stretch =
@@ -172,7 +178,7 @@ BoardSearch SearchVideo(const fs::path& video, const Board& board, int tries, in
     Report(progress, frame, frames.value_or(0));
   }
   try_sharpest();
-  search.views = SelectViews(search.views, max_views);
+  search.views = SelectViews(DropRepeats(std::move(search.views)), max_views);
   return search;
 }
 

@@ -21,7 +21,7 @@ namespace flocklift {
 std::vector<std::filesystem::path> ExpandPictures(const std::vector<std::filesystem::path>& paths);
 
 struct BoardSearch {
-  std::vector<BoardView> views;      // those with a board
+  std::vector<BoardView> views;      // those with a board, repeats dropped
   std::vector<std::string> without;  // names of pictures without one
   int looked_at = 0;                 // pictures, or frames that were tried
   int width = 0, height = 0;         // of every picture [px]
@@ -34,7 +34,7 @@ BoardSearch SearchPictures(const std::vector<std::filesystem::path>& pictures, c
 // Tries the sharpest frame of each of about `tries` stretches of the video, and keeps at most
 // `max_views` views, spread well over place, size and tilt.
 BoardSearch SearchVideo(const std::filesystem::path& video, const Board& board, int tries,
-                        int max_views, const Progress& progress);
+                        int max_views, int threads, const Progress& progress);
 
 }  // namespace flocklift
 

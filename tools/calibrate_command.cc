@@ -54,7 +54,7 @@ BoardSearch Search(const CalibrateCommand& command, const Board& board, const Co
   BoardSearch search;
   if (pictures.empty()) {
     search = SearchVideo(command.pictures.front(), board, kFramesTried, command.views,
-                         stage->BeginPhase("find board", "frames"));
+                         common.ThreadCount(), stage->BeginPhase("find board", "frames"));
   } else {
     search = SearchPictures(pictures, board, common.ThreadCount(),
                             stage->BeginPhase("find board", "pictures"));
@@ -62,12 +62,19 @@ BoardSearch Search(const CalibrateCommand& command, const Board& board, const Co
   stage->EndPhase();
   const auto found = search.views.size();
   if (found < kFewestViews) {
-    throw InputError(
-        search.without.empty() ? command.pictures.front().string() : search.without.front(), 0,
-        fmt::format("no {} is seen here, and in {} of {} {} only", NameOf(board), found,
-                    search.looked_at, pictures.empty() ? "frames tried" : "pictures"),
-        fmt::format("give at least {} views of it, and its size as OpenCV counts it",
-                    kFewestViews));
+    const std::string looked =
+        fmt::format("{} {}", search.looked_at, pictures.empty() ? "frames tried" : "pictures");
+    const std::string mend = fmt::format(
+        "give at least {} different views of it, and its size as OpenCV counts it", kFewestViews);
+    if (!search.without.empty()) {
+      throw InputError(search.without.front(), 0,
+                       fmt::format("no {} is seen here, and {} different views of one in {}",
+                                   NameOf(board), found, looked),
+                       mend);
+    }
+    throw InputError(command.pictures.front().string(), 0,
+                     fmt::format("{} different views of a {} in {}", found, NameOf(board), looked),
+                     mend);
   }
   if (!search.without.empty()) {
     stage->Warn(fmt::format("no {} is seen in {} of {} pictures ({})", NameOf(board),

@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -78,7 +79,8 @@ class CalibrateCommandTest : public testing::Test {
   static void TearDownTestSuite() { fs::remove_all(Folder()); }
 
   static fs::path Folder() {
-    return fs::path(testing::TempDir()) / "flocklift_calibrate_command_test";
+    return fs::path(testing::TempDir()) /
+           ("flocklift_calibrate_command_test_" + std::to_string(getpid()));
   }
   static std::string PictureName(int k) {
     return (Folder() / "pictures" / ("view_" + std::to_string(k) + ".png")).string();
@@ -89,7 +91,7 @@ class CalibrateCommandTest : public testing::Test {
   void Run(const std::string& arguments) {
     CLI::App app;
     AddCalibrateCommand(app);
-    app.parse("calibrate " + arguments + " --quiet --out " + out_.string());
+    app.parse("calibrate " + arguments + " --quiet --threads 1 --out " + out_.string());
   }
   nlohmann::json Figures() const {
     return nlohmann::json::parse(std::ifstream(out_ / "summary.calibrate.json"))["figures"];
@@ -147,9 +149,9 @@ TEST_F(CalibrateCommandTest, TakesTheSharpFramesOfAVideo) {
 }
 
 TEST_F(CalibrateCommandTest, TriesTheSharpestFrameOfEachStretch) {
-  const BoardSearch search = SearchVideo(Folder() / "board.avi", kBoard, 18, 100, {});
+  const BoardSearch search = SearchVideo(Folder() / "board.avi", kBoard, 18, 100, 1, {});
   EXPECT_EQ(search.looked_at, 18);
-  EXPECT_GE(search.views.size(), 16u);
+  EXPECT_EQ(search.views.size(), 9u);  // each pose comes twice
   for (const BoardView& view : search.views) {
     const int frame = std::stoi(view.name.substr(view.name.rfind(' ')));
     EXPECT_EQ(frame % 2, 0) << view.name;  // the others are blurred
@@ -165,11 +167,16 @@ TEST_F(CalibrateCommandTest, WarnsOfAPictureWithoutTheBoardAmongOthers) {
 
 TEST_F(CalibrateCommandTest, TellsEveryFaultInOneLine) {
   const std::string pictures = (Folder() / "pictures").string();
-  EXPECT_THAT(FaultOf((Folder() / "grey.png").string() + " --board 7x5"),
-              HasSubstr("no 7x5 chessboard is seen here, and in 0 of 1 pictures only"));
+  EXPECT_THAT(
+      FaultOf((Folder() / "grey.png").string() + " --board 7x5"),
+      HasSubstr("no 7x5 chessboard is seen here, and 0 different views of one in 1 pictures"));
   EXPECT_THAT(FaultOf(PictureName(0) + " " + PictureName(1) + " --board 7x5"),
-              HasSubstr("at least 4 views"));
-  EXPECT_THAT(FaultOf(PictureName(0) + " --board 8x6"), HasSubstr("in 0 of 1 pictures"));
+              HasSubstr("2 different views of a 7x5 chessboard in 2 pictures; give at least 4"));
+  const std::string same = PictureName(0) + " ";
+  EXPECT_THAT(FaultOf(same + same + same + same + "--board 7x5"),
+              HasSubstr("1 different views of a 7x5 chessboard in 4 pictures"));
+  EXPECT_THAT(FaultOf(PictureName(0) + " --board 8x6"),
+              HasSubstr("0 different views of one in 1 pictures"));
   EXPECT_THAT(FaultOf(pictures + " --charuco 5x7 --square 0.04 --marker 0.02"),
               HasSubstr("no 5x7 ChArUco board"));
   EXPECT_THAT(FaultOf(pictures), HasSubstr("--board 9x6"));

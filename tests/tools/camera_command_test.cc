@@ -4,6 +4,7 @@
 #include "tools/camera_command.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -31,7 +32,8 @@ class CameraCommandTest : public testing::Test {
     return ReadCamera(folder_ / "camera.yaml");
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / "flocklift_camera_command_test";
+  fs::path folder_ =
+      fs::path(testing::TempDir()) / ("flocklift_camera_command_test_" + std::to_string(getpid()));
 };
 
 TEST_F(CameraCommandTest, StandsLevelAtEyeHeightByDefault) {

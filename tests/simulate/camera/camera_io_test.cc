@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -53,10 +54,18 @@ std::string FaultOf(const std::string& text) {
   return "no fault";
 }
 
+std::filesystem::path ScratchFolder() {
+  return std::filesystem::path(testing::TempDir()) /
+         ("flocklift_camera_io_test_" + std::to_string(getpid()));
+}
+class RemoveScratch : public testing::Environment {
+  void TearDown() override { std::filesystem::remove_all(ScratchFolder()); }
+};
+const auto* const kRemoveScratch = testing::AddGlobalTestEnvironment(new RemoveScratch);
+
 std::filesystem::path Scratch(const std::string& name) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "flocklift_camera_io_test";
-  std::filesystem::create_directories(folder);
-  return folder / name;
+  std::filesystem::create_directories(ScratchFolder());
+  return ScratchFolder() / name;
 }
 
 Camera RandomCamera(Rng* rng, int coefficients) {
