@@ -39,8 +39,13 @@ CobylaOptions CobylaFor(const ReconstructOptions& options, const Knowledge& know
   CobylaOptions cobyla = options.cobyla;
   const ScaleGuess guess = GuessScale(knowledge, segments);
   if (cobyla.lambda_speed <= 0) cobyla.lambda_speed = std::exp(guess.log_speed);
-  if (cobyla.near <= 0) cobyla.near = std::exp(guess.log_near);
-  if (cobyla.far <= 0) cobyla.far = std::exp(guess.log_far);
+  constexpr double kNearest = 1e-3, kFarthest = 1e6;  // [m]
+  if (cobyla.near <= 0) {
+    cobyla.near = std::clamp(std::exp(guess.log_near), kNearest, 0.5 * kFarthest);
+  }
+  if (cobyla.far <= 0) {
+    cobyla.far = std::clamp(std::exp(guess.log_far), 2 * kNearest, kFarthest);
+  }
   return cobyla;
 }
 
