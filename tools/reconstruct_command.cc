@@ -5,6 +5,10 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "reconstruct/presets.h"
 #include "simulate/camera/camera_io.h"
@@ -37,6 +41,21 @@ FirstDepths ReadFirstDepths(const fs::path& path, const Camera& camera, int fram
     }
   }
   return depths;
+}
+
+// Every anchor must be of a row of the tracks: one that names nothing would silently do nothing.
+void CheckAnchors(const fs::path& path, const std::vector<Anchor>& anchors, const Tracks& tracks) {
+  std::set<std::pair<Id, int>> rows;
+  for (const Tracklet& tracklet : tracks.tracklets) {
+    for (const Detection& d : tracklet.detections) rows.emplace(tracklet.id, d.frame);
+  }
+  for (const Anchor& anchor : anchors) {
+    if (rows.contains({anchor.id, anchor.frame})) continue;
+    throw InputError(path.string(), 0,
+                     "frame " + std::to_string(anchor.frame) + " of id " +
+                         std::to_string(anchor.id) + " is not in the tracks",
+                     "name an animal and a frame of the tracks, or take the anchor out");
+  }
 }
 
 double FpsFor(const ReconstructCommand& command, const CommonOptions& common, const Tracks& tracks,
@@ -132,6 +151,7 @@ void RunReconstruct(const ReconstructCommand& command, const CommonOptions& comm
   Tracks tracks = ReadTracks(command.tracks);
   const Camera camera = ReadCamera(command.camera);
   if (!shapes.empty()) ReadShapes(shapes, &tracks);
+  CheckAnchors(command.anchors, options.knowledge.anchors, tracks);
   if (!command.first_depths.empty()) {
     options.cobyla_first_depths =
         ReadFirstDepths(command.first_depths, camera, SpanOf(tracks).first);
