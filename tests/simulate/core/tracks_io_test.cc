@@ -106,6 +106,13 @@ TEST(Tracks, AreWrittenByFrame) {
             "2,3,0.0000,0.0000,2.0000,2.0000,1.0000,-1,-1,-1\n");
 }
 
+TEST(Tracks, OfTheTruthSayThatAllIsVisible) {
+  const TemporaryFolder folder;
+  WriteTrueTracks(folder / "tracks.csv", Parse("1,3,1,1,2,2\n"));
+  EXPECT_EQ(Contents(folder / "tracks.csv"), "1,3,1.0000,1.0000,2.0000,2.0000,1.0000,-1,1,-1\n");
+  EXPECT_EQ(ReadTracks(folder / "tracks.csv").tracklets[0].id, 3);
+}
+
 TEST(Tracks, TinyBoxesStayPositive) {
   const TemporaryFolder folder;
   WriteTracks(folder / "tracks.csv", Parse("1,1,1,1,1e-7,1e-7\n"));
