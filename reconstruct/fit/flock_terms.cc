@@ -175,7 +175,8 @@ FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>
   } else if (const auto* linear = std::get_if<LinearParameters<double>>(&resolved)) {
     terms.evaluate = LinearTerms(*linear, free);
   } else {
-    throw InputError(model.where, 0, "model " + model.name + " moves positions and has no accelerations",
+    throw InputError(model.where, 0,
+                     "model " + model.name + " moves positions and has no accelerations",
                      "take boids, boids2d or linear");
   }
   return terms;
