@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/fields/cost_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "simulate/core/check.h"
+#include "simulate/core/parallel_for.h"
+
+namespace flocklift {
+namespace {
+
+constexpr std::int64_t kNodesAtOnce = 8192;
+
+// Where the corners' directions add up to less than this, they say too little [1].
+constexpr double kUndecided = 0.05;
+
+// A node by its place along the axes, for walks to its neighbours.
+struct Place {
+  int i, j, k;
+
+  Place(const Grid& g, std::size_t node)
+      : i(static_cast<int>(node % g.nx)),
+        j(static_cast<int>(node / g.nx % g.ny)),
+        k(static_cast<int>(node / g.nx / g.ny)) {}
+
+  // Calls fn(node) for those of the six neighbours that there are.
+  template <typename Function>
+  void ForEachNeighbour(const Grid& g, const Function& fn) const {
+    if (i > 0) fn(g.Index(i - 1, j, k));
+    if (i + 1 < g.nx) fn(g.Index(i + 1, j, k));
+    if (j > 0) fn(g.Index(i, j - 1, k));
+    if (j + 1 < g.ny) fn(g.Index(i, j + 1, k));
+    if (k > 0) fn(g.Index(i, j, k - 1));
+    if (k + 1 < g.nz) fn(g.Index(i, j, k + 1));
+  }
+};
+
+}  // namespace
+
+CostField::CostField(const ScalarField& distance, const CostOptions& options,
+                     std::span<const Solid> goals, int threads)
+    : distance_(distance),
+      options_(options),
+      goals_(goals.begin(), goals.end()),
+      threads_(threads),
+      eikonal_(distance.grid) {
+  Check(distance.values.size() == grid().size(), "one distance per node is needed");
+  Check(options.length_weight > 0 && options.repulsion_weight >= 0 && options.diagonal > 0,
+        "a cost field's weights must be positive");
+  guide_.resize(grid().size());
+  SetSlowness({});
+  SetSeeds();
+  Solve();
+}
+
+void CostField::SetGoals(std::span<const Solid> goals) {
+  goals_.assign(goals.begin(), goals.end());
+  SetSeeds();
+  Solve();
+}
+
+void CostField::SetExtra(std::span<const float> extra) {
+  Check(extra.empty() || extra.size() == grid().size(), "one extra cost per node is needed");
+  SetSlowness(extra);
+  SetSeeds();  // those beside a goal hold a cost
+  Solve();
+}
+
+void CostField::SetSlowness(std::span<const float> extra) {
+  slowness_.resize(grid().size());
+  const auto diagonal = static_cast<float>(options_.diagonal * grid().spacing);
+  const auto a = static_cast<float>(options_.length_weight);
+  const auto b = static_cast<float>(options_.repulsion_weight);
+  const auto nodes = static_cast<std::int64_t>(grid().size());
+  ParallelFor(threads_, 0, nodes, kNodesAtOnce, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t n = first; n < last; ++n) {
+      const float phi = distance_.values[n];
+      slowness_[n] = phi < 0 ? Eikonal::kInfinite : a + b * Repulsion(phi, diagonal);
+      if (!extra.empty()) slowness_[n] += extra[n];
+    }
+  });
+  eikonal_.SetSlowness(slowness_);
+}
+
+void CostField::SetSeeds() {
+  Check(!goals_.empty(), "a cost field needs a goal");
+  const Grid& g = grid();
+  std::vector<Eikonal::Seed> seeds;
+  for (const Solid& goal : goals_) {
+    const std::size_t before = seeds.size();
+    const auto [low, high] = Bounds(goal);
+    const Place from(g, g.Nearest(low)), to(g, g.Nearest(high));
+    for (int k = from.k; k <= to.k; ++k) {
+      for (int j = from.j; j <= to.j; ++j) {
+        for (int i = from.i; i <= to.i; ++i) {
+          const std::size_t node = g.Index(i, j, k);
+          if (eikonal_.IsWall(node) || SignedDistance(goal, g.Node(i, j, k)) > 0) continue;
+          seeds.push_back({node, 0});
+        }
+      }
+    }
+    if (seeds.size() == before) {
+      double nearest = std::numeric_limits<double>::infinity();
+      std::size_t best = 0;
+      for (std::size_t node = 0; node < g.size(); ++node) {
+        if (eikonal_.IsWall(node)) continue;
+        const double distance = SignedDistance(goal, g.Node(node));
+        if (distance >= nearest) continue;
+        nearest = distance;
+        best = node;
+      }
+      Check(std::isfinite(nearest), "the obstacles leave no room for a goal");
+      seeds.push_back({best, 0});
+      continue;
+    }
+    // A node beside the goal is nearer to it than to the goal's node.
+    const std::size_t inside = seeds.size();
+    for (std::size_t s = before; s < inside; ++s) {
+      Place(g, seeds[s].node).ForEachNeighbour(g, [&](std::size_t node) {
+        const double distance = SignedDistance(goal, g.Node(node));
+        if (eikonal_.IsWall(node) || distance <= 0) return;
+        seeds.push_back(
+            {node, slowness_[node] * static_cast<float>(std::min(distance, g.spacing))});
+      });
+    }
+  }
+  eikonal_.SetSeeds(seeds);
+}
+
+void CostField::Solve() {
+  eikonal_.Solve();
+  const Grid& g = grid();
+  if (eikonal_.solved_all()) {
+    ParallelFor(threads_, 0, static_cast<std::int64_t>(g.size()), kNodesAtOnce,
+                [&](std::int64_t first, std::int64_t last) {
+                  for (std::int64_t n = first; n < last; ++n) Guide(n);
+                });
+    return;
+  }
+  for (const std::size_t node : eikonal_.changed()) {
+    Guide(node);
+    Place(g, node).ForEachNeighbour(g, [this](std::size_t other) { Guide(other); });
+  }
+}
+
+// V of a node from C, or from the distance in a wall.
+void CostField::Guide(std::size_t node) {
+  const Grid& g = grid();
+  std::array<float, 3> part{};
+  const float cost = eikonal_.At(node);
+  if (eikonal_.IsWall(node)) {
+    const Vec3d out = distance_.SampleSmooth(g.Node(node)).gradient;
+    part = {static_cast<float>(out.x), static_cast<float>(out.y), static_cast<float>(out.z)};
+  } else if (cost != Eikonal::kInfinite && cost > 0) {
+    const std::array<float, 6> near = eikonal_.Neighbours(node);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float before = near[2 * axis], after = near[2 * axis + 1];
+      if (std::min(before, after) < cost)
+        part[axis] = before <= after ? before - cost : cost - after;
+    }
+  }
+  const float norm = std::sqrt(part[0] * part[0] + part[1] * part[1] + part[2] * part[2]);
+  const float scale = norm > 0 ? 1 / norm : 0;
+  guide_[node] = {scale * part[0], scale * part[1], scale * part[2], distance_.values[node]};
+}
+
+std::size_t CostField::unreachable() const {
+  std::size_t count = 0;
+  for (std::size_t node = 0; node < grid().size(); ++node) {
+    count += !IsWall(node) && Cost(node) == Eikonal::kInfinite ? 1 : 0;
+  }
+  return count;
+}
+
+Vec3d CostField::Direction(const Vec3d& point) const {
+  if (SignedDistance(goals_, point) <= 0) return {};
+  const GridCell cell = CellOf(grid(), point);
+  Vec3d sum;
+  for (int corner = 0; corner < 8; ++corner) {
+    const bool x = corner & 1, y = corner & 2, z = corner & 4;
+    const GuideNode& node =
+        guide_[cell.index + (x ? cell.step_x : 0) + (y ? cell.step_y : 0) + (z ? cell.step_z : 0)];
+    const double weight = (x ? cell.u.x : 1 - cell.u.x) * (y ? cell.u.y : 1 - cell.u.y) *
+                          (z ? cell.u.z : 1 - cell.u.z);
+    sum += weight * Vec3d{node.x, node.y, node.z};
+  }
+  const double norm = Norm(sum);
+  if (norm > kUndecided) return sum / norm;
+  const GuideNode& nearest = guide_[grid().Nearest(point)];
+  return {nearest.x, nearest.y, nearest.z};
+}
+
+}  // namespace flocklift
