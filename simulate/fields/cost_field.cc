@@ -179,16 +179,11 @@ std::size_t CostField::unreachable() const {
 
 Vec3d CostField::Direction(const Vec3d& point) const {
   if (SignedDistance(goals_, point) <= 0) return {};
-  const GridCell cell = CellOf(grid(), point);
   Vec3d sum;
-  for (int corner = 0; corner < 8; ++corner) {
-    const bool x = corner & 1, y = corner & 2, z = corner & 4;
-    const GuideNode& node =
-        guide_[cell.index + (x ? cell.step_x : 0) + (y ? cell.step_y : 0) + (z ? cell.step_z : 0)];
-    const double weight = (x ? cell.u.x : 1 - cell.u.x) * (y ? cell.u.y : 1 - cell.u.y) *
-                          (z ? cell.u.z : 1 - cell.u.z);
+  CellOf(grid(), point).ForEachCorner([&](std::size_t index, double weight) {
+    const GuideNode& node = guide_[index];
     sum += weight * Vec3d{node.x, node.y, node.z};
-  }
+  });
   const double norm = Norm(sum);
   if (norm > kUndecided) return sum / norm;
   const GuideNode& nearest = guide_[grid().Nearest(point)];

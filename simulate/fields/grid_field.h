@@ -54,6 +54,16 @@ struct GridCell {
   std::size_t index;
   std::size_t step_x, step_y, step_z;
   Vec3d u;
+
+  // Calls fn(node, weight) for the eight corners with their trilinear weights, in a fixed order.
+  template <typename Function>
+  void ForEachCorner(const Function& fn) const {
+    for (int corner = 0; corner < 8; ++corner) {
+      const bool x = corner & 1, y = corner & 2, z = corner & 4;
+      fn(index + (x ? step_x : 0) + (y ? step_y : 0) + (z ? step_z : 0),
+         (x ? u.x : 1 - u.x) * (y ? u.y : 1 - u.y) * (z ? u.z : 1 - u.z));
+    }
+  }
 };
 GridCell CellOf(const Grid& grid, const Vec3d& p);
 
