@@ -45,20 +45,19 @@ double SquaredDistanceToSegment(const Vec3d& p, const Vec3d& side) {
 
 // The nearest point lies inside the triangle, or on a side that the point's projection is beyond:
 // with one barycentric coordinate negative on the side opposite, with two on either of two.
-double MeshDistance::Face::SquaredDistance(const Vec3d& point) const {
+double MeshDistance::Face::SquaredDistance(const Vec3d& point, double best) const {
   const Vec3d p = point - a;
+  const double height = Dot(p, normal);
+  double nearest = std::numeric_limits<double>::infinity();
+  if (height * height >= best) return nearest;
   const double along_ab = Dot(p, ab), along_ac = Dot(p, ac);
   const double s = (ac_ac * along_ab - ab_ac * along_ac) * inverse_det;  // weight of b
   const double t = (ab_ab * along_ac - ab_ac * along_ab) * inverse_det;  // weight of c
-  if (s >= 0 && t >= 0 && s + t <= 1) {
-    const double height = Dot(p, normal);
-    return height * height;
-  }
-  double best = std::numeric_limits<double>::infinity();
-  if (t < 0) best = SquaredDistanceToSegment(p, ab);
-  if (s < 0) best = std::min(best, SquaredDistanceToSegment(p, ac));
-  if (s + t > 1) best = std::min(best, SquaredDistanceToSegment(p - ab, ac - ab));
-  return best;
+  if (s >= 0 && t >= 0 && s + t <= 1) return height * height;
+  if (t < 0) nearest = SquaredDistanceToSegment(p, ab);
+  if (s < 0) nearest = std::min(nearest, SquaredDistanceToSegment(p, ac));
+  if (s + t > 1) nearest = std::min(nearest, SquaredDistanceToSegment(p - ab, ac - ab));
+  return nearest;
 }
 
 MeshDistance::MeshDistance(const TriangleMesh& mesh) {
@@ -150,7 +149,7 @@ void MeshDistance::Split(std::uint32_t index, std::vector<Vec3d>* centres) {
 SurfacePoint MeshDistance::Closest(const Vec3d& point, std::uint32_t hint) const {
   FLOCKLIFT_DCHECK(hint < slot_.size());
   const Face* nearest = &faces_[slot_[hint]];
-  double best = nearest->SquaredDistance(point);
+  double best = nearest->SquaredDistance(point, std::numeric_limits<double>::infinity());
   struct Entry {
     std::uint32_t node;
     double squared;
@@ -162,7 +161,7 @@ SurfacePoint MeshDistance::Closest(const Vec3d& point, std::uint32_t hint) const
     const Node& node = nodes_[at.node];
     if (node.count > 0) {
       for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-        const double squared = faces_[k].SquaredDistance(point);
+        const double squared = faces_[k].SquaredDistance(point, best);
         if (squared < best) {
           best = squared;
           nearest = &faces_[k];

@@ -56,7 +56,8 @@ class MeshDistance {
     Vec3d a, ab, ac, normal;  // corner, sides, unit normal
     double ab_ab, ab_ac, ac_ac, inverse_det;
     std::uint32_t triangle;
-    double SquaredDistance(const Vec3d& point) const;
+    // Or infinite where it is clear that it is not less than `best`.
+    double SquaredDistance(const Vec3d& point, double best) const;
   };
   // Pseudo-normals of a triangle's corners and of the sides that start at them.
   struct Rim {
