@@ -52,6 +52,8 @@ const std::vector<Library> kLibraries = {
     {"Eigen", std::regex("Eigen/.*"), {"reconstruct"}},
     {"SIMD", std::regex("(xsimd/.*|.*intrin\\.h)"), {"simulate/flock"}},
     {"HDF5", std::regex("(hdf5|H5.*)\\.h"), {"simulate/core"}},
+    {"assimp", std::regex("assimp/.*"), {"simulate/shapes"}},
+    {"FLANN", std::regex("flann/.*"), {"simulate/shapes", "simulate/flock"}},
     {"CLI11", std::regex("CLI/.*"), {"tools"}},
     {"FFmpeg", std::regex("lib(av|sw).*/.*"), {"simulate/render", "track"}},
 };
