@@ -14,6 +14,7 @@
 #include "simulate/core/io.h"
 #include "simulate/core/rigid3.h"
 #include "simulate/core/scene_io.h"
+#include "simulate/flock/force_types.h"
 #include "simulate/flock/model.h"
 #include "simulate/flock/simulate_scene.h"
 #include "simulate/render/film.h"
@@ -23,15 +24,24 @@
 namespace flocklift {
 namespace {
 
-void PrintModels() {
-  for (const ModelInfo& model : Models()) {
-    fmt::print("{}: {} [{}]\n", model.name, model.help, model.source);
-    for (const ParameterInfo& p : model.parameters) {
-      const std::string value = fmt::format("{:g} {}", p.value, p.unit);
-      fmt::print("  {:<12} {:<16} {}\n", p.name, value, p.help);
-    }
-    fmt::print("\n");
+void PrintInfo(const ModelInfo& info) {
+  const std::string source = info.source.empty() ? "" : " [" + info.source + "]";
+  fmt::print("{}: {}{}\n", info.name, info.help, source);
+  for (const ParameterInfo& p : info.parameters) {
+    const std::string value = p.choices.empty() ? fmt::format("{:g} {}", p.value, p.unit)
+                                                : p.choices[static_cast<std::size_t>(p.value)];
+    const std::string choices =
+        p.choices.empty() ? "" : fmt::format(": {}", fmt::join(p.choices, ", "));
+    fmt::print("  {:<12} {:<16} {}{}\n", p.name, value, p.help, choices);
   }
+  fmt::print("\n");
+}
+
+void PrintModels() {
+  fmt::print("MODELS (model = NAME of a [[species]], with [species.parameters])\n\n");
+  for (const ModelInfo& model : Models()) PrintInfo(model);
+  fmt::print("FORCE TERMS (type = NAME of a [[species.force]], added to the model's)\n\n");
+  for (const ModelInfo& force : ForceTypes()) PrintInfo(force);
 }
 
 Camera CameraOf(const Scene& scene) {
@@ -80,14 +90,25 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   stage.options()["video"] = !command.no_video;
   stage.AddInput(command.scene);
   if (scene.camera.file) stage.AddInput(*scene.camera.file);
+  for (const ObstacleSpec& obstacle : scene.obstacles) {
+    if (obstacle.mesh) stage.AddInput(*obstacle.mesh);
+  }
+  for (const ShapeSpec& shape : scene.shapes) {
+    for (const ShapeSpec::KeyFrame& frame : shape.key_frames) stage.AddInput(frame.mesh);
+  }
   for (const char* output : {"trajectories.csv", "tracks_true.csv", "camera.yaml"}) {
     stage.AddOutput(output);
   }
   if (!command.no_video) stage.AddOutput("video.mp4");
   if (stage.IsUpToDate()) return;
 
-  const Progress step_progress = stage.BeginPhase("step");
-  const SceneResult result = SimulateScene(scene, common.ThreadCount(), step_progress);
+  const Progress step_progress = stage.BeginPhase("record");
+  const SceneResult result = SimulateScene(
+      scene, {.threads = common.ThreadCount(), .checkpoint = common.out / ".simulate-checkpoint"},
+      step_progress);
+  stage.EndPhase();
+  stage.SplitPhase("prepare", result.prepare_wall_s, result.prepare_cpu_s);
+  stage.SplitPhase("step", result.step_wall_s, result.step_cpu_s);
   stage.BeginPhase("observe");
   const Tracks tracks =
       SynthesizeTracks(result.truth, result.animals, camera, scene.fps, common.ThreadCount());
@@ -130,7 +151,7 @@ void AddSimulateCommand(CLI::App& app) {
   sub->add_option("--seed", command->seed, "of all random numbers, instead of the scene's");
   sub->add_flag("--no-video", command->no_video, "write no video.mp4");
   sub->add_flag("--list", command->list,
-                "name the models and their parameters with units and defaults")
+                "name the models, force terms and their parameters with units and defaults")
       ->excludes(scene);
   AddFlags(*sub, command->video, "Video");
 }

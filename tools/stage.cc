@@ -145,6 +145,14 @@ void Stage::EndPhase() {
   }
 }
 
+void Stage::SplitPhase(const std::string& name, double wall_s, double cpu_s) {
+  Check(!in_phase_ && !phases_.empty(), "only a phase that has ended can be split");
+  Phase& whole = phases_.back();
+  whole.wall_s = std::max(0.0, whole.wall_s - wall_s);
+  whole.cpu_s = std::max(0.0, whole.cpu_s - cpu_s);
+  phases_.insert(phases_.end() - 1, {.name = name, .wall_s = wall_s, .cpu_s = cpu_s});
+}
+
 void Stage::Warn(const std::string& message) {
   warnings_.push_back(message);
   if (!common_.quiet) fmt::print(stderr, "flocklift {}: warning: {}\n", name_, message);

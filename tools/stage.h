@@ -48,6 +48,9 @@ class Stage {
   // Ends the phase before and starts one; the result reports its progress in `unit`s.
   Progress BeginPhase(const std::string& name, const std::string& unit = "frames");
   void EndPhase();
+  // Takes a part of the phase that ended last, which the work itself timed, out of it and lists it
+  // as a phase of its own before it.
+  void SplitPhase(const std::string& name, double wall_s, double cpu_s);
 
   // Said on standard error (unless quiet) and kept in the summary.
   void Warn(const std::string& message);

@@ -138,10 +138,13 @@ class LinearTerms {
   Slot cohesion_, alignment_;
 };
 
+template <typename Parameters>
+std::vector<std::string> WeightsOf(const Parameters&) {
+  return {};  // none by which its accelerations are linear
+}
 std::vector<std::string> WeightsOf(const BoidsParameters<double>&) {
   return {"alpha_s", "alpha_c", "alpha_a", "alpha_b", "cruise", "level"};
 }
-std::vector<std::string> WeightsOf(const LinParameters<double>&) { return {}; }
 std::vector<std::string> WeightsOf(const LinearParameters<double>&) {
   return {"cohesion", "alignment"};
 }

@@ -16,6 +16,7 @@
 #define FLOCKLIFT_SIMULATE_CORE_OPTIONS_H_
 
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -23,6 +24,14 @@
 #include "simulate/core/check.h"
 
 namespace flocklift {
+
+// A field that is one of a few names.
+struct Choice {
+  std::span<const std::string_view> names;  // of static storage
+  int index = 0;
+
+  std::string_view name() const { return names[static_cast<std::size_t>(index)]; }
+};
 
 // Legal values of a number, both ends included.
 struct Range {

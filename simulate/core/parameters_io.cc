@@ -29,8 +29,7 @@ ModelSpec ReadModel(const toml::table& table, const std::string& name) {
   if (!settings.Text("name", &model.name)) settings.FailMissing("name", "name the model");
   model.where = settings.Where("name");
   if (const toml::table* parameters = settings.FindTable("parameters")) {
-    Settings(*parameters, name, "[model.parameters]")
-        .AllNumbers(&model.parameters, &model.where_of);
+    Settings(*parameters, name, "[model.parameters]").AllOthers(&model);
   }
   settings.FailUnknown();
   return model;
@@ -207,6 +206,9 @@ std::string FormatParameters(const Parameters& parameters) {
                  TomlText(parameters.model.name));
   for (const auto& [key, value] : parameters.model.parameters) {
     fmt::format_to(out, "{} = {}\n", internal::TomlKey(key), TomlNumber(value));
+  }
+  for (const auto& [key, word] : parameters.model.choices) {
+    fmt::format_to(out, "{} = {}\n", internal::TomlKey(key), TomlText(word));
   }
   const ParameterPosterior& posterior = parameters.posterior;
   const std::size_t size = posterior.free.size();

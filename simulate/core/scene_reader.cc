@@ -11,6 +11,7 @@
 #include "simulate/core/check.h"
 #include "simulate/core/input_file.h"
 #include "simulate/core/settings.h"
+#include "simulate/core/surroundings_reader.h"
 #include "simulate/core/table.h"
 #include "simulate/core/text.h"
 
@@ -20,9 +21,9 @@ namespace {
 using internal::Limits;
 using internal::Settings;
 
-constexpr double kLongest = 86400;       // of any time: a day [s]
+using internal::kFastest;
+using internal::kLongest;
 constexpr double kLargestBody = 100;     // [m]
-constexpr double kFastest = 1000;        // [m/s]
 constexpr int kMostAnimals = 1'000'000;  // of a species
 constexpr int kWidestImage = 16384;      // [px]
 
@@ -62,11 +63,28 @@ ModelSpec ReadModel(Settings* species) {
   species->Text("model", &model.name);
   model.where = species->Where("model");
   if (const toml::table* parameters = species->FindTable("parameters")) {
-    Settings(*parameters, species->name(), "[species.parameters]")
-        .AllNumbers(&model.parameters, &model.where_of);
+    Settings(*parameters, species->name(), "[species.parameters]").AllOthers(&model);
   }
-  species->Refuse("force");
   return model;
+}
+
+ModelSpec ReadForce(const toml::table& table, const std::string& name) {
+  Settings settings(table, name, "[[species.force]]");
+  ModelSpec force;
+  if (!settings.Text("type", &force.name)) settings.FailMissing("type", "name the force term");
+  force.where = settings.Where("type");
+  settings.AllOthers(&force);
+  return force;
+}
+
+// `start` is a box, or the name of a shape.
+void ReadStart(Settings* settings, bool is_flat, SpeciesSpec* species) {
+  if (const toml::node* node = settings->Find("start"); node != nullptr && node->is_string()) {
+    settings->Text("start", &species->start_shape);
+    return;
+  }
+  Region start;
+  if (settings->Corners("start", &start.low, &start.high, is_flat)) species->start = start;
 }
 
 SpeciesSpec ReadSpecies(const toml::table& table, const std::string& name, bool is_flat) {
@@ -80,41 +98,14 @@ SpeciesSpec ReadSpecies(const toml::table& table, const std::string& name, bool 
   settings.Number("wingbeat_hz", &species.wingbeat_hz, {0, 1000});
   settings.Number("speed", &species.speed, Limits::Positive(kFastest));
   settings.Number("speed_spread", &species.speed_spread, {0, 1});
-  Region start;
-  if (settings.Corners("start", &start.low, &start.high, is_flat)) species.start = start;
+  ReadStart(&settings, is_flat, &species);
+  settings.Text("shape", &species.shape);
+  settings.Text("path", &species.path);
   species.model = ReadModel(&settings);
+  settings.EachTable(
+      "force", [&](const toml::table& force) { species.forces.push_back(ReadForce(force, name)); });
   settings.FailUnknown();
   return species;
-}
-
-GoalSpec ReadGoal(const toml::table& table, const std::string& name, const Scene& scene) {
-  Settings settings(table, name, "[[goal]]");
-  GoalSpec goal;
-  if (settings.Text("species", &goal.species)) {
-    std::vector<std::string> names;
-    for (const SpeciesSpec& species : scene.species) names.push_back(species.name);
-    settings.Text("species", &goal.species, names);
-  }
-  if (!settings.Vector("position", &goal.position, scene.dimensions == 2)) {
-    settings.FailMissing("position", "say where the goal is: position = [x, y, z]");
-  }
-  settings.Number("radius", &goal.radius, {0, 1e6});
-  settings.Number("period", &goal.period, {0, kLongest});
-  settings.Number("weight", &goal.weight, {0, 1e6});
-  settings.FailUnknown();
-  return goal;
-}
-
-PredatorSpec ReadPredator(const toml::table& table, const std::string& name) {
-  Settings settings(table, name, "[[predator]]");
-  PredatorSpec predator;
-  ReadInteger(&settings, "count", &predator.count, 1, 1000);
-  settings.Number("speed", &predator.speed, {0, kFastest});
-  settings.Number("fear_radius", &predator.fear_radius, Limits::Positive(1e6));
-  settings.Number("fear_weight", &predator.fear_weight, {0, 1e6});
-  settings.Number("turn_interval", &predator.turn_interval, Limits::Positive(kLongest));
-  settings.FailUnknown();
-  return predator;
 }
 
 void ReadImageSize(Settings* settings, CameraSpec* camera) {
@@ -134,21 +125,41 @@ void ReadImageSize(Settings* settings, CameraSpec* camera) {
   camera->height = pixels(1);
 }
 
+CameraSpec::Pose ReadPose(const toml::table& table, const std::string& name,
+                          const CameraSpec& camera) {
+  Settings settings(table, name, "path in [camera]");
+  CameraSpec::Pose pose{.time = 0, .position = camera.position, .look_at = camera.look_at};
+  settings.Number("time", &pose.time, {-kLongest, kLongest});
+  settings.Vector("position", &pose.position, false);
+  settings.Vector("look_at", &pose.look_at, false);
+  settings.FailUnknown();
+  if (!camera.path.empty() && !(pose.time > camera.path.back().time)) {
+    settings.Fail("time", "the poses of the camera are not in the order of time",
+                  "give each a later time than the one before");
+  }
+  if (Norm(pose.look_at - pose.position) < 1e-6) {
+    settings.Fail("look_at", "the camera looks at its own position", "give another look_at");
+  }
+  return pose;
+}
+
 CameraSpec ReadCameraSpec(const toml::table& table, const std::string& name) {
   Settings settings(table, name, "[camera]");
   CameraSpec camera;
-  std::string file;
-  if (settings.Text("file", &file)) {
+  std::filesystem::path file;
+  if (settings.File("file", &file)) {
     if (table.size() > 1) {
       settings.Fail("file", "[camera] has a file and other keys", "give one or the other");
     }
-    if (file.empty()) settings.Fail("file", "file in [camera] is empty", "name a camera file");
-    camera.file = std::filesystem::path(name).parent_path() / file;
+    camera.file = file;
   }
   settings.Number("fov", &camera.fov_deg, {1, 170});
   ReadImageSize(&settings, &camera);
   settings.Vector("position", &camera.position, false);
   settings.Vector("look_at", &camera.look_at, false);
+  settings.EachTable("path", [&](const toml::table& pose) {
+    camera.path.push_back(ReadPose(pose, name, camera));
+  });
   settings.FailUnknown();
   if (Norm(camera.look_at - camera.position) < 1e-6) {
     settings.Fail("look_at", "the camera looks at its own position", "give another look_at");
@@ -164,6 +175,10 @@ RenderSpec ReadRender(const toml::table& table, const std::string& name) {
   settings.Number("blur", &render.blur, {0, 1});
   settings.Number("haze", &render.haze, {0, 1e6});
   settings.Number("cloud_speed", &render.cloud_speed_px, {-1000, 1000});
+  settings.Flag("obstacles", &render.obstacles);
+  settings.Flag("goals", &render.goals);
+  settings.Flag("paths", &render.paths);
+  settings.Flag("ground", &render.ground);
   settings.FailUnknown();
   return render;
 }
@@ -189,12 +204,7 @@ Scene ParseScene(std::string_view text, const std::string& name) {
     }
     scene.species.push_back(std::move(species));
   });
-  settings.EachTable("goal", [&](const toml::table& table) {
-    scene.goals.push_back(ReadGoal(table, name, scene));
-  });
-  settings.EachTable("predator", [&](const toml::table& table) {
-    scene.predators.push_back(ReadPredator(table, name));
-  });
+  internal::ReadSurroundings(&settings, &scene);
   if (const toml::table* table = settings.FindTable("camera")) {
     scene.camera = ReadCameraSpec(*table, name);
   }
@@ -204,6 +214,7 @@ Scene ParseScene(std::string_view text, const std::string& name) {
   if (scene.species.empty()) {
     throw InputError(name, 0, "the scene has no animals", "add a table [[species]]");
   }
+  internal::CheckNamesOfSurroundings(name, scene);
   return scene;
 }
 

@@ -154,6 +154,19 @@ bool Settings::Corners(std::string_view key, Vec3d* low, Vec3d* high, bool is_fl
   return true;
 }
 
+bool Settings::Points(std::string_view key, std::vector<Vec3d>* points) {
+  const toml::array* const list = FindArray(key);
+  if (list == nullptr) return false;
+  for (const toml::node& point : *list) {
+    if (!point.is_array()) {
+      FailAt(point, name_, fmt::format("{} in {} holds something that is no point", key, heading_),
+             "give [[x, y, z], [x, y, z], ...]");
+    }
+    points->push_back(CheckedVector(*point.as_array(), key, false));
+  }
+  return true;
+}
+
 const toml::array* Settings::FindArray(std::string_view key) {
   const toml::node* const node = Find(key);
   if (node != nullptr && !node->is_array()) {
@@ -190,12 +203,39 @@ void Settings::Refuse(std::string_view key) {
        "take it out");
 }
 
-void Settings::AllNumbers(std::map<std::string, double>* values,
-                          std::map<std::string, std::string>* where) {
+bool Settings::Flag(std::string_view key, bool* value) {
+  const toml::node* const node = Find(key);
+  if (node == nullptr) return false;
+  const toml::value<bool>* const flag = node->as_boolean();
+  if (flag == nullptr) {
+    Fail(key, fmt::format("{} in {} is neither true nor false", key, heading_),
+         "write true or false");
+  }
+  *value = flag->get();
+  return true;
+}
+
+bool Settings::File(std::string_view key, std::filesystem::path* value) {
+  std::string file;
+  if (!Text(key, &file)) return false;
+  if (file.empty()) {
+    Fail(key, fmt::format("{} in {} is empty", key, heading_), "name a file");
+  }
+  *value = std::filesystem::path(name_).parent_path() / file;
+  return true;
+}
+
+void Settings::AllOthers(ModelSpec* model) {
   for (const auto& [key, node] : table_) {
+    if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
     known_.emplace_back(key.str());
-    (*values)[std::string(key.str())] = CheckedNumber(node, Quoted(key.str()), {});
-    (*where)[std::string(key.str())] = Where(key.str());
+    const std::string name(key.str());
+    if (const toml::value<std::string>* const word = node.as_string()) {
+      model->choices[name] = word->get();
+    } else {
+      model->parameters[name] = CheckedNumber(node, Quoted(key.str()), {});
+    }
+    model->where_of[name] = Where(key.str());
   }
 }
 

@@ -9,12 +9,13 @@
 
 #include <toml++/toml.h>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "simulate/core/scene.h"
 #include "simulate/core/vec3.h"
 
 namespace flocklift::internal {
@@ -51,6 +52,9 @@ class Settings {
   // [[x, y, z], [x, y, z]]: the low corner of a box with some extent, then the high one.
   bool Corners(std::string_view key, Vec3d* low, Vec3d* high, bool is_flat);
 
+  // [[x, y, z], ...].
+  bool Points(std::string_view key, std::vector<Vec3d>* points);
+
   // The node of a key, null when absent; checks nothing but marks the key as known.
   const toml::node* Find(std::string_view key);
   const toml::array* FindArray(std::string_view key);
@@ -59,8 +63,12 @@ class Settings {
   void EachTable(std::string_view key, const std::function<void(const toml::table&)>& take);
   // Fails when the key is there: a later schema's.
   void Refuse(std::string_view key);
-  // Every key with its number, and "FILE:LINE" of each: names that only others know.
-  void AllNumbers(std::map<std::string, double>* values, std::map<std::string, std::string>* where);
+  bool Flag(std::string_view key, bool* value);
+  // A path, made relative to the folder of this file.
+  bool File(std::string_view key, std::filesystem::path* value);
+  // Every key that nobody asked for yet, a number or a word, and "FILE:LINE" of each: names that
+  // only the model knows.
+  void AllOthers(ModelSpec* model);
 
   // Fails at the first key that none of the above was asked for.
   void FailUnknown() const;

@@ -5,43 +5,35 @@
 // input gives the same bytes at any number of threads and with any kernel variant of this machine,
 // because every animal sums its neighbours in an order that depends on the state alone.
 //
-// Neighbours are animals of the same species; what species share are the goals, the walls and the
-// predators.
+// Neighbours are animals of the same species; what species share are the goals, the walls, the
+// obstacles, the wind and the predators.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_ENGINE_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_ENGINE_H_
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulate/core/scene.h"
 #include "simulate/core/trajectory.h"
 #include "simulate/flock/model.h"
+#include "simulate/flock/world.h"
 
 namespace flocklift {
-
-// What surrounds the flock. Without a box there are no walls.
-struct World {
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-
-  std::uint64_t seed = 1;
-  double dt = 1.0 / 120;  // of a step [s]
-  double time = 0;        // at the start [s]; goals move with it
-  int dimensions = 3;     // 2: z stays 0
-  Region box{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
-  std::vector<GoalSpec> goals;
-  std::vector<PredatorSpec> predators;
-};
 
 // One species and where its animals start.
 struct Swarm {
   std::string species;
   ModelParameters model;  // ResolveModel makes it
   std::vector<Vec3d> position, velocity;
-  std::vector<double> cruising_speed;  // [m/s], one each; empty: the starting speeds
+  std::vector<double> cruising_speed = {};  // [m/s], one each; empty: the starting speeds
+  std::vector<double> radius = {};          // of the bodies [m], one each; empty: 0
+  ModelSpec spec = {};                      // what `model` was made from; events change it
+  std::string shape = {}, path = {};        // the species' own, by name
+  std::vector<ModelSpec> forces = {};       // added to the model's
 };
 
 struct EngineOptions {
@@ -49,14 +41,12 @@ struct EngineOptions {
   std::string kernel;  // "scalar" or a name of kBoidsKernels; empty: the fastest there is
 };
 
-// Where a goal is at a time [s].
-Vec3d GoalPosition(const GoalSpec& goal, double time);
-
 // T = float is the simulator; T = double is the reference that its tests compare it with.
 template <typename T>
 class BasicEngine {
  public:
-  // Throws std::invalid_argument for numbers that make no sense (lengths that differ, dt <= 0).
+  // Throws std::invalid_argument for numbers that make no sense (lengths that differ, dt <= 0), and
+  // InputError for what the scene's file got wrong.
   BasicEngine(const World& world, const std::vector<Swarm>& swarms, const EngineOptions& options);
   ~BasicEngine();
   BasicEngine(BasicEngine&&) noexcept;
@@ -68,13 +58,25 @@ class BasicEngine {
   // All animals by id: from 1, species after species in their order, the predators last.
   FlockState State() const;
 
-  // The accelerations of the boids' pair terms at the last step, by the same order; zero for other
-  // models [m/s^2].
-  std::vector<Vec3d> PairAccelerations() const;
+  // The accelerations of the models' forces at the last step, by the same order; zero for models
+  // that have none [m/s^2].
+  std::vector<Vec3d> Accelerations() const;
+
+  // Changes from the next step on; what an [[event]] does, for whoever steers. Throws
+  // std::out_of_range for a species or goal that is not there, InputError as ResolveModel does.
+  void SetParameters(const std::string& species, const ModelSpec& change);
+  void MoveGoal(std::size_t index, const Vec3d& position);
+  void SetWind(const Vec3d& velocity);
+
+  // The whole state as bytes, and back into an engine that was made alike: it goes on as the saved
+  // one would have. Throws std::runtime_error when the bytes are of another flock.
+  std::string Save() const;
+  void Load(std::string_view bytes);
 
   std::int64_t steps() const;
   double time() const;            // [s]
   double MeanNeighbours() const;  // an animal and step, over all steps so far
+  double MdeShare() const;        // animals that minimum-distance enforcement moved, likewise
 
  private:
   struct Impl;

@@ -7,44 +7,28 @@
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_MODEL_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_MODEL_H_
 
-#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "simulate/core/options.h"
 #include "simulate/core/scene.h"
 #include "simulate/flock/boids.h"
+#include "simulate/flock/forces_model.h"
 #include "simulate/flock/lin_model.h"
 #include "simulate/flock/linear_model.h"
+#include "simulate/flock/registry.h"
 
 namespace flocklift {
-
-struct ParameterInfo {
-  std::string name;
-  double value = 0;  // default
-  Range range;
-  std::string unit, help;
-};
-
-struct ModelInfo {
-  std::string name, help, source;
-  std::vector<ParameterInfo> parameters;  // in the order of the model's Describe
-};
 
 // All models, and one by name (null when there is none of that name).
 const std::vector<ModelInfo>& Models();
 const ModelInfo* FindModel(std::string_view name);
 
-using ModelParameters =
-    std::variant<BoidsParameters<double>, LinParameters<double>, LinearParameters<double>>;
+using ModelParameters = std::variant<BoidsParameters<double>, LinParameters<double>,
+                                     LinearParameters<double>, ForcesParameters>;
 
-// The numbers of a model, defaults where the spec says nothing. InputError, told from the spec's
-// place in its file, when there is no such model or parameter (the nearest name is suggested) or a
-// number is out of its range.
+// Registry::Resolve and Registry::Complete of the models.
 ModelParameters ResolveModel(const ModelSpec& spec);
-
-// The spec with every parameter of the model spelled out; checks as ResolveModel does.
 ModelSpec CompleteModel(const ModelSpec& spec);
 
 }  // namespace flocklift

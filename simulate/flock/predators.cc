@@ -41,6 +41,7 @@ Predators::Predators(const std::vector<PredatorSpec>& specs, const Region& box, 
       p.fear_radius = spec.fear_radius;
       p.fear_weight = spec.fear_weight;
       p.turn_interval = spec.turn_interval;
+      p.chases = spec.chases;
       p.position = {rng.Uniform(box.low.x, box.high.x), rng.Uniform(box.low.y, box.high.y),
                     dimensions == 3 ? rng.Uniform(box.low.z, box.high.z) : 0};
       p.heading = RandomHeading(dimensions, &rng);
@@ -51,7 +52,8 @@ Predators::Predators(const std::vector<PredatorSpec>& specs, const Region& box, 
   }
 }
 
-void Predators::Step(double dt, std::uint32_t step) {
+void Predators::Step(double dt, std::uint32_t step,
+                     const std::function<Vec3d(const Vec3d&)>& nearest_animal) {
   for (std::size_t k = 0; k < predators_.size(); ++k) {
     Predator& p = predators_[k];
     p.until_turn -= dt;
@@ -59,6 +61,10 @@ void Predators::Step(double dt, std::uint32_t step) {
       Vec3d back = box_.Center() - p.position;
       if (dimensions_ == 2) back.z = 0;
       p.heading = Normalized(back);
+    } else if (p.chases) {
+      Vec3d way = nearest_animal(p.position) - p.position;
+      if (dimensions_ == 2) way.z = 0;
+      if (SquaredNorm(way) > 0) p.heading = Normalized(way);
     } else if (p.until_turn <= 0) {
       Rng rng = StreamOf(Stream::kPredator, seed_, k, step + 1);
       p.heading = RandomHeading(dimensions_, &rng);

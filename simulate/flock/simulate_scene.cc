@@ -5,10 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <numbers>
+#include <optional>
 
 #include "simulate/core/check.h"
 #include "simulate/core/rigid3.h"
+#include "simulate/flock/load_scene.h"
+#include "simulate/flock/scene_checkpoint.h"
 #include "simulate/flock/streams.h"
 
 namespace flocklift {
@@ -54,6 +58,18 @@ Region StartRegion(const Scene& scene, const SpeciesSpec& species) {
   return {scene.box.low + quarter, scene.box.high - quarter};
 }
 
+Vec3d DrawIn(const Region& region, Rng* rng) {
+  return {rng->Uniform(region.low.x, region.high.x), rng->Uniform(region.low.y, region.high.y),
+          rng->Uniform(region.low.z, region.high.z)};
+}
+
+std::optional<SurfaceDraw> StartShape(const SpeciesSpec& species, const World& world) {
+  for (const ShapeInTime& shape : world.shapes) {
+    if (shape.name == species.start_shape) return SurfaceDraw(shape.meshes.front());
+  }
+  return {};
+}
+
 Animal MakeAnimal(const SpeciesSpec& species, std::uint64_t seed, std::size_t agent, double size) {
   Rng rng = StreamOf(Stream::kBody, seed, agent, 2);
   return {.id = static_cast<Id>(agent + 1),
@@ -72,17 +88,26 @@ void AddSpecies(const Scene& scene, std::size_t species_index, Population* popul
   const Region start = StartRegion(scene, species);
   const Vec3d heading = CommonHeading(scene, species, start, species_index, population->world.time);
 
+  const std::optional<SurfaceDraw> start_shape = StartShape(species, population->world);
+
   const std::vector<double> size_draws = CentredNormals(scene.seed, first, species.count, 0);
   const std::vector<double> speed_draws = CentredNormals(scene.seed, first, species.count, 1);
   double mean_size = 0;
   for (const double draw : size_draws) {
     mean_size += std::exp(species.wingspan_spread * draw) / static_cast<double>(species.count);
   }
-  Swarm swarm{species.name, ResolveModel(species.model), {}, {}, {}};
+  Swarm swarm;
+  swarm.species = species.name;
+  swarm.model = ResolveModel(species.model);
+  swarm.spec = species.model;
+  swarm.shape = species.shape;
+  swarm.path = species.path;
+  swarm.forces = species.forces;
   for (std::size_t k = 0; k < size_draws.size(); ++k) {
     const std::size_t agent = first + k;
     const double size = std::exp(species.wingspan_spread * size_draws[k]) / mean_size;
     population->animals.push_back(MakeAnimal(species, scene.seed, agent, size));
+    swarm.radius.push_back(0.5 * population->animals.back().wingspan);
 
     const double speed = species.speed * std::max(0.1, 1 + species.speed_spread * speed_draws[k]);
     Rng rng = StreamOf(Stream::kStart, scene.seed, agent);
@@ -90,9 +115,7 @@ void AddSpecies(const Scene& scene, std::size_t species_index, Population* popul
       swarm.position.push_back(start.Center() + Vec3d{rng.Normal(), rng.Normal(), rng.Normal()});
       swarm.velocity.push_back(0.3 * Vec3d{rng.Normal(), rng.Normal(), rng.Normal()});
     } else {
-      swarm.position.push_back({rng.Uniform(start.low.x, start.high.x),
-                                rng.Uniform(start.low.y, start.high.y),
-                                rng.Uniform(start.low.z, start.high.z)});
+      swarm.position.push_back(start_shape ? start_shape->Draw(&rng) : DrawIn(start, &rng));
       Vec3d aside{rng.Normal(), rng.Normal(), 0.3 * rng.Normal()};
       if (scene.dimensions == 2) aside.z = 0;
       swarm.velocity.push_back(speed * Normalized(heading + kStartSpread * aside));
@@ -111,6 +134,26 @@ Quaternion Bank(const Vec3d& v, const Vec3d& a) {
     return QuaternionFromRotation(WorldFromLevelBody(v));
   }
   return QuaternionFromRotation(Rotation3d::FromRows(forward, Cross(up, forward), up).Inverse());
+}
+
+void Record(const FlockState& state, int frame, Trajectories* truth) {
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    TrajectoryPoint point;
+    point.frame = frame;
+    point.position = state.position[k];
+    point.velocity = state.velocity[k];
+    truth->trajectories[k].points.push_back(point);
+  }
+}
+
+// Adds the time that `work` takes.
+template <typename Work>
+void Timed(double* wall_s, double* cpu_s, const Work& work) {
+  const auto wall = std::chrono::steady_clock::now();
+  const std::clock_t cpu = std::clock();
+  work();
+  *wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  *cpu_s += static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
 }
 
 void AddOrientations(double fps, Trajectory* trajectory) {
@@ -136,10 +179,16 @@ Population Populate(const Scene& scene) {
   population.world = {.seed = scene.seed,
                       .dt = 1 / (scene.fps * scene.substeps),
                       .time = 0,
+                      .duration = scene.duration,
                       .dimensions = scene.dimensions,
                       .box = scene.box,
                       .goals = scene.goals,
-                      .predators = scene.predators};
+                      .predators = scene.predators,
+                      .obstacles = LoadObstacles(scene),
+                      .shapes = LoadShapes(scene),
+                      .paths = scene.paths,
+                      .wind = scene.wind,
+                      .events = scene.events};
   const auto warmup_steps =
       static_cast<double>(std::llround(scene.warmup * scene.fps) * scene.substeps);
   population.world.time = -warmup_steps * population.world.dt;
@@ -156,43 +205,48 @@ Population Populate(const Scene& scene) {
   return population;
 }
 
-SceneResult SimulateScene(const Scene& scene, int threads, const Progress& progress) {
-  Population population = Populate(scene);
-  Engine engine(population.world, population.swarms, {.threads = threads, .kernel = ""});
+SceneResult SimulateScene(const Scene& scene, const SimulateOptions& options,
+                          const Progress& progress) {
+  SceneResult result;
+  Population population;
+  std::optional<Engine> engine;
+  Timed(&result.prepare_wall_s, &result.prepare_cpu_s, [&] {
+    population = Populate(scene);
+    engine.emplace(population.world, population.swarms,
+                   EngineOptions{.threads = options.threads, .kernel = {}});
+  });
+
   const auto warmup_frames = static_cast<std::int64_t>(std::llround(scene.warmup * scene.fps));
   const std::int64_t frames = scene.FrameCount();
-  const auto step_frame = [&] {
-    for (int k = 0; k < scene.substeps; ++k) engine.Step();
-  };
-
-  SceneResult result;
   result.truth.fps = scene.fps;
   result.truth.has_velocity = result.truth.has_orientation = true;
   for (const Animal& animal : population.animals) {
     result.truth.trajectories.push_back({.id = animal.id, .points = {}});
     result.truth.trajectories.back().points.reserve(static_cast<std::size_t>(frames));
   }
-  for (std::int64_t frame = 1 - warmup_frames; frame <= frames; ++frame) {
-    if (frame > 0) {
-      const FlockState state = engine.State();
-      for (std::size_t k = 0; k < state.size(); ++k) {
-        TrajectoryPoint point;
-        point.frame = static_cast<int>(frame);
-        point.position = state.position[k];
-        point.velocity = state.velocity[k];
-        result.truth.trajectories[k].points.push_back(point);
-      }
+  SceneCheckpoint checkpoint(options.checkpoint, options.checkpoint_every, scene);
+  std::int64_t frame = 1 - warmup_frames;
+  checkpoint.Resume(&*engine, &frame, &result.truth);
+  for (; frame <= frames; ++frame) {
+    if (frame > 0) Record(engine->State(), static_cast<int>(frame), &result.truth);
+    if (frame < frames) {
+      Timed(&result.step_wall_s, &result.step_cpu_s, [&] {
+        for (int k = 0; k < scene.substeps; ++k) engine->Step();
+      });
     }
-    if (frame < frames) step_frame();
+    checkpoint.KeepIfDue(*engine, frame, result.truth);
     Report(progress, frame + warmup_frames, frames + warmup_frames);
   }
+  checkpoint.Remove();
   for (Trajectory& trajectory : result.truth.trajectories) AddOrientations(scene.fps, &trajectory);
 
   result.agents = static_cast<std::int64_t>(population.animals.size());
   for (const PredatorSpec& predators : scene.predators) result.agents -= predators.count;
   result.animals = std::move(population.animals);
-  result.steps = engine.steps();
-  result.mean_neighbours = engine.MeanNeighbours();
+  result.obstacles = std::move(population.world.obstacles);
+  result.steps = engine->steps();
+  result.mean_neighbours = engine->MeanNeighbours();
+  result.mde_share = engine->MdeShare();
   return result;
 }
 

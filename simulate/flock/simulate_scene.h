@@ -6,7 +6,9 @@
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_SIMULATE_SCENE_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_SIMULATE_SCENE_H_
 
+#include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "simulate/core/animal.h"
@@ -17,32 +19,45 @@
 
 namespace flocklift {
 
-// The scene at the start of its warm-up. Individuals differ: their cruising speeds by a relative
-// standard deviation of speed_spread, their wingspans (with body lengths in proportion) by
-// wingspan_spread in the logarithm; the mean over a species is exactly the scene's. They start
-// anywhere in the species' region, headed for its goal, or together in a random direction.
+// The scene at the start of its warm-up, its meshes read. Individuals differ: their cruising speeds
+// by a relative standard deviation of speed_spread, their wingspans (with body lengths in
+// proportion) by wingspan_spread in the logarithm; the mean over a species is exactly the scene's.
+// They start anywhere in the species' region or on its start shape, headed for its goal, or
+// together in a random direction.
 struct Population {
   World world;
   std::vector<Swarm> swarms;
   std::vector<Animal> animals;  // by id, predators last
 };
 
-// Throws InputError for a model that the scene's file names wrongly, std::invalid_argument for a
-// scene that makes no sense.
+// Throws InputError for a model that the scene's file names wrongly or a mesh that cannot be read,
+// std::invalid_argument for a scene that makes no sense.
 Population Populate(const Scene& scene);
+
+struct SimulateOptions {
+  int threads = 1;                            // 0: all that the machine has
+  std::filesystem::path checkpoint = {};      // a folder to go on from; empty: none is kept
+  std::chrono::seconds checkpoint_every{30};  // of wall time
+};
 
 struct SceneResult {
   Trajectories truth;           // with velocities and orientations; one id per animal for ever
   std::vector<Animal> animals;  // by id
-  std::int64_t agents = 0;      // predators not counted
-  std::int64_t steps = 0;       // warm-up included
-  double mean_neighbours = 0;   // an animal and step
-  double mde_share = 0;         // share of animals that minimum-distance enforcement moved, a step
+  std::vector<Obstacle> obstacles;
+  std::int64_t agents = 0;     // predators not counted
+  std::int64_t steps = 0;      // warm-up included
+  double mean_neighbours = 0;  // an animal and step
+  double mde_share = 0;        // share of animals that minimum-distance enforcement moved, a step
+  double prepare_wall_s = 0, prepare_cpu_s = 0;  // reading meshes, filling fields
+  double step_wall_s = 0, step_cpu_s = 0;        // the steps alone, without recording them
 };
 
 // Frame f shows the time (f - 1) / fps. Wings bank with the turn: the body's up is that of the felt
-// weight, acceleration less gravity.
-SceneResult SimulateScene(const Scene& scene, int threads, const Progress& progress);
+// weight, acceleration less gravity. A run that was killed goes on from its checkpoint, which must
+// be of the same scene (it is ignored otherwise), and ends with the same bytes; the checkpoint is
+// removed at the end.
+SceneResult SimulateScene(const Scene& scene, const SimulateOptions& options,
+                          const Progress& progress);
 
 }  // namespace flocklift
 

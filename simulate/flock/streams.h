@@ -13,7 +13,15 @@
 
 namespace flocklift {
 
-enum class Stream : std::uint64_t { kStart = 1, kBody = 2, kNoise = 3, kPredator = 4, kFlock = 5 };
+enum class Stream : std::uint64_t {
+  kStart = 1,
+  kBody = 2,
+  kNoise = 3,
+  kPredator = 4,
+  kFlock = 5,
+  kForceNoise = 6,
+  kWind = 7
+};
 
 inline Rng StreamOf(Stream purpose, std::uint64_t seed, std::uint64_t agent,
                     std::uint32_t step = 0) {

@@ -36,7 +36,7 @@ Scene OpenSkyScene() {
 
 TEST(Replay, OfATrueFlockByItsOwnModelStaysWithIt) {
   const Scene scene = OpenSkyScene();
-  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  const Trajectories truth = SimulateScene(scene, {}, {}).truth;
   ReplayOptions options;
   options.frame = 1;
   options.substeps = scene.substeps;
@@ -51,7 +51,7 @@ TEST(Replay, OfATrueFlockByItsOwnModelStaysWithIt) {
 
 TEST(Replay, ByAnotherModelParts) {
   const Scene scene = OpenSkyScene();
-  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  const Trajectories truth = SimulateScene(scene, {}, {}).truth;
   ModelSpec wrong = scene.species[0].model;
   wrong.parameters["alpha_c"] = 20;
   ReplayOptions options;
@@ -109,7 +109,7 @@ TEST(Replay, MoreAnimalsAreCopiesWithNewIdsAndTheSameAtAnyThreadCount) {
 TEST(Replay, WithoutPullTheGuidedFlightIsTheEngines) {
   // The double-precision terms of the guided flight and the engine's kernels: one model.
   const Scene scene = OpenSkyScene();
-  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  const Trajectories truth = SimulateScene(scene, {}, {}).truth;
   ReplayOptions options;
   options.frame = 1;
   options.duration = 1;
@@ -125,7 +125,7 @@ TEST(Replay, WithoutPullTheGuidedFlightIsTheEngines) {
 
 TEST(Replay, ThePullKeepsAForeignModelOnThePath) {
   const Scene scene = OpenSkyScene();
-  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  const Trajectories truth = SimulateScene(scene, {}, {}).truth;
   ModelSpec wrong = scene.species[0].model;
   wrong.parameters["alpha_c"] = 3;
   ReplayOptions options;
@@ -156,7 +156,7 @@ TEST(Replay, CopiesAreGuidedBesideTheirSource) {
 
 TEST(Replay, APerturbationIsFollowed) {
   const Scene scene = OpenSkyScene();
-  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  const Trajectories truth = SimulateScene(scene, {}, {}).truth;
   ReplayOptions options;
   options.frame = 1;
   const ReplayResult result = Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1);

@@ -15,12 +15,12 @@
 namespace flocklift {
 namespace {
 
-std::vector<Vec3d> PairAccelerations(const NamedFlock& flock, const BoidsParameters<double>& p) {
+std::vector<Vec3d> Accelerations(const NamedFlock& flock, const BoidsParameters<double>& p) {
   World world;
   world.dt = 1e-6;
   ReferenceEngine engine(world, {AsSwarm(flock, p)}, {});
   engine.Step();
-  return engine.PairAccelerations();
+  return engine.Accelerations();
 }
 
 // From a script that knows the formulas and nothing of this code (pixels and steps).
@@ -37,7 +37,7 @@ TEST(Boids, GoldenTable) {
   p.alpha_s = 0.02;
   p.alpha_c = 0.001;
   p.alpha_a = 0.03;
-  const std::vector<Vec3d> actual = PairAccelerations(flock, p);
+  const std::vector<Vec3d> actual = Accelerations(flock, p);
   for (std::size_t k = 0; k < golden.size(); ++k) {
     EXPECT_LT(Norm(actual[k] - golden[k]), 1e-12) << k;
   }
@@ -76,7 +76,7 @@ TEST(Boids, EqualsBruteForceOnEveryFlock) {
   for (const NamedFlock& flock : ManyFlocks()) {
     SCOPED_TRACE(flock.name);
     for (const BoidsParameters<double>& p : {PlainRules(0.4, 1.05), PlainRules(2.1, 0.7)}) {
-      const std::vector<Vec3d> actual = PairAccelerations(flock, p);
+      const std::vector<Vec3d> actual = Accelerations(flock, p);
       const std::vector<Vec3d> expected = BruteForce(flock, p);
       for (std::size_t k = 0; k < expected.size(); ++k) {
         EXPECT_LT(Norm(actual[k] - expected[k]), 1e-9) << k;
@@ -88,7 +88,7 @@ TEST(Boids, EqualsBruteForceOnEveryFlock) {
 TEST(Boids, TurnsMovesAndRenumbersWithTheWorld) {
   const BoidsParameters<double> p = PlainRules(0.5, 1.2, 0.3);
   NamedFlock flock = RandomFlock("", 300, {4, 4, 4}, 21);
-  const std::vector<Vec3d> before = PairAccelerations(flock, p);
+  const std::vector<Vec3d> before = Accelerations(flock, p);
   const double angle = 0.7;
   const Rotation3d turn =
       RotationFromQuaternion({std::cos(angle), 0.6 * std::sin(angle), 0.8 * std::sin(angle), 0});
@@ -96,7 +96,7 @@ TEST(Boids, TurnsMovesAndRenumbersWithTheWorld) {
   for (Vec3d& v : flock.velocity) v = turn * v + Vec3d{3, 1, -2};  // only differences count
   std::reverse(flock.position.begin(), flock.position.end());
   std::reverse(flock.velocity.begin(), flock.velocity.end());
-  const std::vector<Vec3d> after = PairAccelerations(flock, p);
+  const std::vector<Vec3d> after = Accelerations(flock, p);
   for (std::size_t k = 0; k < before.size(); ++k) {
     EXPECT_LT(Norm(after[before.size() - 1 - k] - turn * before[k]), 1e-9);
   }
@@ -106,7 +106,7 @@ TEST(Boids, TurnsMovesAndRenumbersWithTheWorld) {
 TEST(Boids, MomentumStaysWhereEverybodySeesEverybody) {
   const NamedFlock flock = RandomFlock("", 50, {1, 1, 1}, 4);
   Vec3d sum;
-  for (const Vec3d& a : PairAccelerations(flock, PlainRules(5, 5))) sum += a;
+  for (const Vec3d& a : Accelerations(flock, PlainRules(5, 5))) sum += a;
   EXPECT_LT(Norm(sum), 1e-10);
 }
 

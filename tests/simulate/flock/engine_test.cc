@@ -303,5 +303,72 @@ TEST(Linear, DiffusesAtItsRate) {
   EXPECT_NEAR(variance, 2 * 0.7 * 0.5, 0.05);
 }
 
+TEST(Engine, GoesOnFromASavedStateAsIfNothingHadBeen) {
+  Engine whole = BusyEngine(1), first = BusyEngine(2), second = BusyEngine(1);
+  for (int k = 0; k < 12; ++k) first.Step();
+  second.Load(first.Save());
+  for (int k = 0; k < 13; ++k) second.Step();
+  for (int k = 0; k < 25; ++k) whole.Step();
+  ExpectSameBytes(second.State(), whole.State());
+  EXPECT_EQ(second.MeanNeighbours(), whole.MeanNeighbours());
+  EXPECT_EQ(second.steps(), 25);
+}
+
+TEST(Engine, RefusesTheStateOfAnotherFlock) {
+  World world;
+  Engine other(world, {AsSwarm(RandomFlock("", 7, {1, 1, 1}, 1), PlainRules(1, 1))}, {});
+  Engine busy = BusyEngine(1);
+  EXPECT_THROW(busy.Load(other.Save()), std::runtime_error);
+  std::string bytes = busy.Save();
+  bytes.resize(bytes.size() - 5);
+  EXPECT_THROW(busy.Load(bytes), std::runtime_error);
+}
+
+TEST(Engine, EventsChangeParametersGoalsAndWind) {
+  World world;
+  world.dt = 0.1;
+  world.goals = {{.species = "", .position = {10, 0, 0}, .weight = 1}};
+  EventSpec faster, jump, storm;
+  faster.time = 1;
+  faster.change.parameters = {{"s_max", 3}};
+  jump.time = 2;
+  jump.goal = 1;
+  jump.position = {0, -50, 0};
+  storm.time = 3;
+  storm.wind = Vec3d{0, 0, 9};
+  world.events = {faster, jump, storm};
+  Swarm swarm = AsSwarm({"", {{0, 0, 0}}, {{1, 0, 0}}}, ForcesParameters{.s_min = 0, .s_max = 1});
+  swarm.spec = {.name = "forces", .parameters = {{"s_max", 1}}, .where = {}, .where_of = {}};
+  ModelSpec goal, wind;
+  goal.name = "goal";
+  wind.name = "wind";
+  wind.parameters = {{"rate", 2}};
+  swarm.forces = {goal, wind};
+  ReferenceEngine engine(world, {swarm}, {});
+  const auto velocity_at = [&engine](double time) {
+    while (engine.time() < time - 1e-9) engine.Step();
+    return engine.State().velocity[0];
+  };
+  EXPECT_NEAR(velocity_at(1.0).x, 1, 1e-9);  // as fast as it may, towards the goal
+  EXPECT_GT(velocity_at(1.9).x, 1.5);
+  EXPECT_LT(velocity_at(2.9).y, -1.5);
+  EXPECT_NEAR(engine.State().velocity[0].z, 0, 1e-9);
+  EXPECT_GT(velocity_at(3.5).z, 1);
+}
+
+TEST(Engine, EventsThatMakeNoSenseFailAtOnce) {
+  World world;
+  EventSpec event;
+  event.change.parameters = {{"s_mox", 3}};
+  world.events = {event};
+  Swarm swarm = AsSwarm({"", {{0, 0, 0}}, {{1, 0, 0}}}, PlainRules(1, 1));
+  swarm.spec.name = "boids";
+  EXPECT_THROW(Engine(world, {swarm}, {}), InputError);
+  EventSpec jump;
+  jump.goal = 1;
+  world.events = {jump};
+  EXPECT_THROW(Engine(world, {swarm}, {}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace flocklift

@@ -88,7 +88,7 @@ TEST(Populate, WrongModelsAreInputErrors) {
 }
 
 TEST(SimulateScene, FramesIdsAndFigures) {
-  const SceneResult result = SimulateScene(SmallScene(), 1, {});
+  const SceneResult result = SimulateScene(SmallScene(), {}, {});
   EXPECT_EQ(result.agents, 20);
   EXPECT_EQ(result.steps, (15 + 29) * 4);  // the last frame needs no step after it
   EXPECT_GT(result.mean_neighbours, 1);
@@ -106,7 +106,7 @@ TEST(SimulateScene, FramesIdsAndFigures) {
 }
 
 TEST(SimulateScene, VelocitiesAreThePathsOwn) {
-  const SceneResult result = SimulateScene(SmallScene(), 1, {});
+  const SceneResult result = SimulateScene(SmallScene(), {}, {});
   for (const Trajectory& trajectory : result.truth.trajectories) {
     for (std::size_t k = 1; k + 1 < trajectory.points.size(); ++k) {
       const Vec3d difference =
@@ -122,7 +122,7 @@ TEST(SimulateScene, BodiesPointAlongTheFlightAndBankIntoTheTurn) {
   scene.species[0].model.parameters = {{"noise", 0}, {"alpha_b", 0}, {"level", 5}};
   scene.goals = {{.species = "", .position = {0, 0, 12}, .weight = 1}};
   scene.warmup = 10;
-  const SceneResult result = SimulateScene(scene, 1, {});
+  const SceneResult result = SimulateScene(scene, {}, {});
   for (std::size_t k = 1; k < 29; ++k) {
     const TrajectoryPoint& point = result.truth.trajectories[0].points[k];
     const Rotation3d world_from_body = RotationFromQuaternion(point.world_from_body);
@@ -141,7 +141,10 @@ TEST(SimulateScene, BodiesPointAlongTheFlightAndBankIntoTheTurn) {
 TEST(SimulateScene, SameBytesAtAnyThreadCountOtherSeedOtherPath) {
   Scene scene = SmallScene();
   const auto last = [&scene](int threads) {
-    return SimulateScene(scene, threads, {}).truth.trajectories[7].points.back().position;
+    return SimulateScene(scene, {.threads = threads}, {})
+        .truth.trajectories[7]
+        .points.back()
+        .position;
   };
   const Vec3d one = last(1);
   EXPECT_EQ(last(2), one);
@@ -151,7 +154,7 @@ TEST(SimulateScene, SameBytesAtAnyThreadCountOtherSeedOtherPath) {
 
 TEST(SimulateScene, ReportsProgress) {
   std::int64_t calls = 0, last = 0, whole = 0;
-  SimulateScene(SmallScene(), 1, [&](std::int64_t done, std::int64_t total) {
+  SimulateScene(SmallScene(), {}, [&](std::int64_t done, std::int64_t total) {
     ++calls;
     EXPECT_GE(done, last);
     last = done;
@@ -167,7 +170,7 @@ class SceneFile : public ::testing::TestWithParam<const char*> {};
 TEST_P(SceneFile, StaysInViewAndMoves) {
   const Scene scene =
       ReadScene(std::string(FLOCKLIFT_SOURCE_DIR) + "/data_synthetic/" + GetParam() + ".toml");
-  const SceneResult result = SimulateScene(scene, 1, {});
+  const SceneResult result = SimulateScene(scene, {}, {});
   const bool pixels = scene.dimensions == 2;
   for (const Trajectory& trajectory : result.truth.trajectories) {
     EXPECT_EQ(trajectory.points.size(), static_cast<std::size_t>(scene.FrameCount()));
@@ -191,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(All, SceneFile,
 // and the flock stays where the camera sees it.
 TEST(Demo, MeanSpeedDepthsAndView) {
   const Scene scene = ReadScene(std::string(FLOCKLIFT_SOURCE_DIR) + "/data_synthetic/demo.toml");
-  const SceneResult result = SimulateScene(scene, 1, {});
+  const SceneResult result = SimulateScene(scene, {}, {});
   const Rigid3d cam_from_world = LookAt(scene.camera.position, scene.camera.look_at);
   const double half_width = std::tan(0.5 * scene.camera.fov_deg * std::acos(-1.0) / 180);
   double speed = 0, rows = 0, in_view = 0;

@@ -17,7 +17,7 @@ std::vector<Vec3d> FloatAccelerations(const NamedFlock& flock, const BoidsParame
   Engine engine(world, {AsSwarm(flock, p)}, {.threads = 1, .kernel = kernel});
   engine.Step();
   *neighbours = engine.MeanNeighbours();
-  return engine.PairAccelerations();
+  return engine.Accelerations();
 }
 
 // The last on the lattice: neighbours exactly on the edge.
@@ -79,7 +79,7 @@ TEST(BoidsKernel, AgreesWithDouble) {
     engine.Step();
     double neighbours = 0;
     const auto actual = FloatAccelerations(flock, p, "", &neighbours);
-    const auto expected = engine.PairAccelerations();
+    const auto expected = engine.Accelerations();
     for (std::size_t k = 0; k < expected.size(); ++k) {
       EXPECT_LT(Norm(actual[k] - expected[k]), 1e-5 * (1 + Norm(expected[k]))) << k;
     }

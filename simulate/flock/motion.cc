@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/flock/motion.h"
+
+#include "simulate/flock/boids_motion.h"
+#include "simulate/flock/forces_motion.h"
+#include "simulate/flock/lin_motion.h"
+#include "simulate/flock/linear_motion.h"
+
+namespace flocklift {
+namespace {
+
+// One overload for each model of ModelParameters.
+template <typename T>
+struct Make {
+  const MotionContext& context;
+  Herd<T>* herd;
+
+  using Result = std::unique_ptr<Motion<T>>;
+  Result operator()(const BoidsParameters<double>& p) { return MakeBoidsMotion(p, context, *herd); }
+  Result operator()(const LinParameters<double>& p) { return MakeLinMotion<T>(p, context); }
+  Result operator()(const LinearParameters<double>& p) { return MakeLinearMotion<T>(p, context); }
+  Result operator()(const ForcesParameters& p) { return MakeForcesMotion(p, context, *herd); }
+};
+
+}  // namespace
+
+template <typename T>
+std::unique_ptr<Motion<T>> MakeMotion(const ModelParameters& parameters,
+                                      const MotionContext& context, Herd<T>* herd) {
+  return std::visit(Make<T>{context, herd}, parameters);
+}
+
+template std::unique_ptr<Motion<float>> MakeMotion(const ModelParameters&, const MotionContext&,
+                                                   Herd<float>*);
+template std::unique_ptr<Motion<double>> MakeMotion(const ModelParameters&, const MotionContext&,
+                                                    Herd<double>*);
+
+}  // namespace flocklift

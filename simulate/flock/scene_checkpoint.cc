@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/flock/scene_checkpoint.h"
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "simulate/core/atomic_file.h"
+#include "simulate/core/scene_io.h"
+#include "simulate/core/state_archive.h"
+
+namespace flocklift {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Motion6 {
+  Vec3d position, velocity;
+};
+
+std::string BytesOf(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The parts of `state`.
+struct SavedState {
+  std::int64_t frame = 0;
+  std::uint64_t frames = 0;
+  std::string_view engine;
+};
+
+// Nothing when the bytes are not of `fingerprint`.
+bool Parse(std::string_view bytes, const std::string& fingerprint, SavedState* state) {
+  if (!bytes.starts_with(fingerprint)) return false;
+  bytes.remove_prefix(fingerprint.size());
+  if (bytes.size() < sizeof state->frame + sizeof state->frames) return false;
+  StateReader in(bytes);
+  in.Take(&state->frame);
+  in.Take(&state->frames);
+  state->engine = bytes.substr(sizeof state->frame + sizeof state->frames);
+  return true;
+}
+
+}  // namespace
+
+SceneCheckpoint::SceneCheckpoint(fs::path folder, std::chrono::seconds every, const Scene& scene)
+    : folder_(std::move(folder)), every_(every), last_(std::chrono::steady_clock::now()) {
+  if (!folder_.empty()) {
+    fingerprint_ = std::string("flocklift ") + FLOCKLIFT_VERSION + "\n" + FormatScene(scene);
+  }
+}
+
+void SceneCheckpoint::Resume(Engine* engine, std::int64_t* frame, Trajectories* truth) {
+  if (folder_.empty()) return;
+  const std::string bytes = BytesOf(folder_ / "state");
+  SavedState state;
+  const std::size_t animals = truth->trajectories.size();
+  const std::uintmax_t frame_size = animals * sizeof(Motion6);
+  std::error_code error;
+  if (!Parse(bytes, fingerprint_, &state) ||
+      (state.frames > 0 && fs::file_size(folder_ / "frames", error) < state.frames * frame_size) ||
+      error) {
+    fs::remove_all(folder_, error);
+    return;
+  }
+  engine->Load(state.engine);
+  std::ifstream file(folder_ / "frames", std::ios::binary);
+  std::vector<Motion6> row(animals);
+  for (std::uint64_t f = 1; f <= state.frames; ++f) {
+    file.read(reinterpret_cast<char*>(row.data()), static_cast<std::streamsize>(frame_size));
+    for (std::size_t k = 0; k < animals; ++k) {
+      TrajectoryPoint point;
+      point.frame = static_cast<int>(f);
+      point.position = row[k].position;
+      point.velocity = row[k].velocity;
+      truth->trajectories[k].points.push_back(point);
+    }
+  }
+  if (!file) throw std::runtime_error((folder_ / "frames").string() + " cannot be read");
+  if (state.frames > 0) fs::resize_file(folder_ / "frames", state.frames * frame_size);
+  kept_frames_ = state.frames;
+  *frame = state.frame + 1;
+}
+
+void SceneCheckpoint::KeepIfDue(const Engine& engine, std::int64_t frame,
+                                const Trajectories& truth) {
+  if (folder_.empty() || std::chrono::steady_clock::now() - last_ < every_) return;
+  Keep(engine, frame, truth);
+  last_ = std::chrono::steady_clock::now();
+}
+
+void SceneCheckpoint::Keep(const Engine& engine, std::int64_t frame, const Trajectories& truth) {
+  if (folder_.empty()) return;
+  fs::create_directories(folder_);
+  const std::size_t frames =
+      truth.trajectories.empty() ? 0 : truth.trajectories.front().points.size();
+  std::ofstream file(folder_ / "frames", std::ios::binary | std::ios::app);
+  std::vector<Motion6> row(truth.trajectories.size());
+  for (; kept_frames_ < frames; ++kept_frames_) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const TrajectoryPoint& point = truth.trajectories[k].points[kept_frames_];
+      row[k] = {point.position, point.velocity};
+    }
+    file.write(reinterpret_cast<const char*>(row.data()),
+               static_cast<std::streamsize>(row.size() * sizeof(Motion6)));
+  }
+  file.close();
+  if (!file) throw std::runtime_error((folder_ / "frames").string() + " cannot be written");
+  StateWriter header;
+  header.Put(frame);
+  header.Put(static_cast<std::uint64_t>(frames));
+  WriteTextFile(folder_ / "state", fingerprint_ + header.bytes() + engine.Save());
+}
+
+void SceneCheckpoint::Remove() {
+  if (folder_.empty()) return;
+  std::error_code ignored;
+  fs::remove_all(folder_, ignored);
+}
+
+}  // namespace flocklift

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What a killed simulation goes on from: a folder with the frames so far (`frames`, appended to)
+// and the engine's state after the last of them (`state`, replaced as a whole). A state that is not
+// of this scene and program is ignored, and a frame that was written after it is cut off.
+
+#ifndef FLOCKLIFT_SIMULATE_FLOCK_SCENE_CHECKPOINT_H_
+#define FLOCKLIFT_SIMULATE_FLOCK_SCENE_CHECKPOINT_H_
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "simulate/core/scene.h"
+#include "simulate/core/trajectory.h"
+#include "simulate/flock/engine.h"
+
+namespace flocklift {
+
+class SceneCheckpoint {
+ public:
+  // An empty folder name keeps nothing.
+  SceneCheckpoint(std::filesystem::path folder, std::chrono::seconds every, const Scene& scene);
+
+  // Sets all three to where the checkpoint stands, the frame to the next one to record; leaves them
+  // alone when there is no checkpoint of this scene.
+  void Resume(Engine* engine, std::int64_t* frame, Trajectories* truth);
+
+  // After `frame` was recorded and the engine took its steps: keeps the state when the last was
+  // long enough ago. Throws std::runtime_error when it cannot be written.
+  void KeepIfDue(const Engine& engine, std::int64_t frame, const Trajectories& truth);
+  void Keep(const Engine& engine, std::int64_t frame, const Trajectories& truth);
+
+  // The run is over.
+  void Remove();
+
+ private:
+  std::filesystem::path folder_;
+  std::chrono::steady_clock::duration every_;
+  std::chrono::steady_clock::time_point last_;
+  std::string fingerprint_;      // of scene and program
+  std::size_t kept_frames_ = 0;  // that stand in `frames`
+};
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_SIMULATE_FLOCK_SCENE_CHECKPOINT_H_
