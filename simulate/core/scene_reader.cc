@@ -189,7 +189,6 @@ Scene ParseScene(std::string_view text, const std::string& name) {
   const toml::table file = internal::ParseToml(text, name);
   Settings settings(file, name, "the scene");
   Scene scene;
-  for (const char* later : {"obstacle", "shape", "path", "event"}) settings.Refuse(later);
   if (const toml::table* table = settings.FindTable("scene")) {
     ReadSceneTable(*table, name, &scene);
   }

@@ -197,12 +197,6 @@ void Settings::EachTable(std::string_view key,
   for (const toml::node& element : *array) take(*element.as_table());
 }
 
-void Settings::Refuse(std::string_view key) {
-  if (!table_.contains(key)) return;
-  Fail(key, fmt::format("{} in {} is not in schema version 1 of this program", key, heading_),
-       "take it out");
-}
-
 bool Settings::Flag(std::string_view key, bool* value) {
   const toml::node* const node = Find(key);
   if (node == nullptr) return false;

@@ -61,8 +61,6 @@ class Settings {
   const toml::table* FindTable(std::string_view key);
   // Calls `take` for each table of [[key]].
   void EachTable(std::string_view key, const std::function<void(const toml::table&)>& take);
-  // Fails when the key is there: a later schema's.
-  void Refuse(std::string_view key);
   bool Flag(std::string_view key, bool* value);
   // A path, made relative to the folder of this file.
   bool File(std::string_view key, std::filesystem::path* value);

@@ -76,7 +76,7 @@ TEST(Parameters, FaultsAreTold) {
       {"[model]\n", 1, "name is missing in [model]"},
       {"[model]\nname = 3\n", 2, "not text"},
       {"[model]\nname = \"a\"\nparameter = 3\n", 3, "did you mean `parameters`?"},
-      {"[model]\nname = \"a\"\nparameters = { k = \"x\" }\n", 3, "`k` in [model.parameters]"},
+      {"[model]\nname = \"a\"\nparameters = { k = true }\n", 3, "`k` in [model.parameters]"},
       {model + "[posterio]\n", 6, "did you mean `posterior`?"},
       {model + "[[goal]]\nweight = 1\n", 6, "position is missing"},
       {model + "[[goal]]\nposition = [0, 0, 0]\nspecies = \"a\"\n", 8, "unknown key `species`"},

@@ -161,6 +161,98 @@ TEST(Scene, SurvivesAFile) {
   EXPECT_THROW(ReadScene(folder / "none.toml"), InputError);
 }
 
+// Everything that surrounds the animals.
+constexpr const char* kSurroundings = R"(
+[[species]]
+start = "moon"
+shape = "horse"
+path = "lane"
+[species.parameters]
+gain = 2
+noise = "curl"
+[[species.force]]
+type = "wind"
+rate = 3
+[[goal]]
+waypoints = [{ time = 0, position = [1, 2, 3] }, { time = 2, position = [4, 5, 6] }]
+reach = 0.5
+[[predator]]
+hunt = "chase"
+[[obstacle]]
+mesh = "house.obj"
+position = [1, 2, 3]
+yaw = 30
+scale = 2
+[[obstacle]]
+box = [[0, 0, 0], [1, 1, 1]]
+[[obstacle]]
+radius = 4
+[[shape]]
+name = "moon"
+mesh = "moon.ply"
+[[shape]]
+name = "horse"
+key_frames = [{ mesh = "a.ply", time = 0 }, { mesh = "b.ply", time = 0.5 }]
+period = 1
+path = "lane"
+[[path]]
+name = "lane"
+points = [[0, 0, 0], [1, 1, 1], [2, 0, 1]]
+speed = 3
+width = 2
+[wind]
+velocity = [1, 0, 0]
+gust = 0.5
+gust_time = 2
+[[event]]
+time = 1
+species = "bird"
+parameters = { gain = 3, noise = "white" }
+goal = 1
+position = [9, 9, 9]
+wind = [0, 1, 0]
+[camera]
+path = [{ time = 0 }, { time = 3, position = [9, 0, 0] }]
+[render]
+obstacles = false
+goals = true
+paths = true
+ground = true
+)";
+
+TEST(Scene, SurroundingsAreRead) {
+  const Scene scene = ParseScene(kSurroundings, "scenes/a.toml");
+  EXPECT_EQ(scene.species[0].start_shape, "moon");
+  EXPECT_EQ(scene.species[0].model.choices.at("noise"), "curl");
+  EXPECT_EQ(scene.species[0].forces[0].name, "wind");
+  EXPECT_EQ(scene.species[0].forces[0].parameters.at("rate"), 3);
+  EXPECT_EQ(scene.goals[0].waypoints[1].position, (Vec3d{4, 5, 6}));
+  EXPECT_EQ(scene.goals[0].position, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(scene.goals[0].reach, 0.5);
+  EXPECT_TRUE(scene.predators[0].chases);
+  ASSERT_EQ(scene.obstacles.size(), 3U);
+  EXPECT_EQ(scene.obstacles[0].mesh, "scenes/house.obj");
+  EXPECT_EQ(scene.obstacles[0].placement.yaw_deg, 30);
+  EXPECT_EQ(scene.obstacles[1].box->high, (Vec3d{1, 1, 1}));
+  EXPECT_EQ(scene.obstacles[2].radius, 4);
+  EXPECT_EQ(scene.shapes[1].key_frames[1].mesh, "scenes/b.ply");
+  EXPECT_EQ(scene.shapes[1].period, 1);
+  EXPECT_EQ(scene.paths[0].points.size(), 3U);
+  EXPECT_EQ(scene.wind.gust_time, 2);
+  EXPECT_EQ(scene.events[0].change.parameters.at("gain"), 3);
+  EXPECT_EQ(scene.events[0].goal, 1U);
+  EXPECT_EQ(scene.events[0].wind, (Vec3d{0, 1, 0}));
+  EXPECT_EQ(scene.camera.path[0].position, scene.camera.position);
+  EXPECT_EQ(scene.camera.path[1].position, (Vec3d{9, 0, 0}));
+  EXPECT_TRUE(scene.render.ground && scene.render.goals && scene.render.paths);
+  EXPECT_FALSE(scene.render.obstacles);
+}
+
+TEST(Scene, SurroundingsSurviveAFile) {
+  const std::string once = FormatScene(ParseScene(kSurroundings, "scenes/a.toml"));
+  EXPECT_EQ(FormatScene(Parse(once)), once);
+}
+
 TEST(Scene, FaultsAreTold) {
   const std::string scene = "[scene]\n", species = "[[species]]\n";
   const std::vector<Fault> faults{
@@ -209,15 +301,32 @@ TEST(Scene, FaultsAreTold) {
       {species + "name = 3\n", 2, "name in [[species]] is not text"},
       {species + "model = 3\n", 2, "model in [[species]] is not text"},
       {species + "parameters = 3\n", 2, "not a table"},
-      {species + "[species.parameters]\na = \"x\"\n", 3,
+      {species + "[species.parameters]\na = true\n", 3,
        "`a` in [species.parameters] is not a number"},
       {species + "[species.parameters]\na = 1\nb = nan\n", 4, "`b` in [species.parameters] is nan"},
-      {species + "[[species.force]]\ntype = \"curl\"\n", 2, "not in schema version 1"},
+      {species + "[[species.force]]\ngain = 1\n", 2, "type is missing in [[species.force]]"},
+      {species + "shape = \"moon\"\n", 0, "species `bird` has the shape `moon`"},
+      {species + "path = \"p\"\n[path]\npoints = [[0, 0, 0], [1, 1, 1]]\n", 0, "known are path"},
       {species + species, 2, "two species are called `bird`"},
-      {species + "[[obstacle]]\n", 2, "obstacle in the scene is not in schema version 1"},
-      {species + "[[shape]]\n", 2, "shape in the scene is not in schema version 1"},
-      {species + "[path]\n", 2, "path in the scene is not in schema version 1"},
-      {species + "[[event]]\n", 2, "event in the scene is not in schema version 1"},
+      {species + "[[obstacle]]\n", 2, "mesh, box or radius (a ball); give exactly one"},
+      {species + "[[obstacle]]\nradius = 1\nmesh = \"a.obj\"\n", 2, "give exactly one"},
+      {species + "[[obstacle]]\nmesh = \"\"\n", 3, "mesh in [[obstacle]] is empty"},
+      {species + "[[shape]]\nname = \"a\"\n", 2, "the shape has no mesh"},
+      {species + "[[shape]]\nmesh = \"a.ply\"\n", 2, "name is missing in [[shape]]"},
+      {species + "[[shape]]\nname = \"a\"\nkey_frames = [{ mesh = \"a\", time = 1 }, "
+                 "{ mesh = \"b\", time = 1 }]\n",
+       4, "not in the order of time"},
+      {species + "[[shape]]\nname = \"a\"\nmesh = \"a.ply\"\npath = \"x\"\n", 0, "path `x`"},
+      {species + "[path]\npoints = [[0, 0, 0]]\n", 2, "fewer than two points"},
+      {species + "[path]\npoints = [[0, 0, 0], 3]\n", 3, "something that is no point"},
+      {species + "[wind]\ngust_time = 0\n", 3, "above 0"},
+      {species + "[[event]]\n", 2, "time is missing in [[event]]"},
+      {species + "[[event]]\ntime = 1\ngoal = 1\n", 4, "goal in [[event]] is 1"},
+      {species + "[[event]]\ntime = 2\n[[event]]\ntime = 1\n", 4, "not in the order of time"},
+      {species + "[[goal]]\nwaypoints = [{ time = 0 }]\n", 3, "position is missing"},
+      {species + "[[predator]]\nhunt = \"chose\"\n", 3, "did you mean `chase`?"},
+      {species + "[render]\nground = 1\n", 3, "neither true nor false"},
+      {species + "[camera]\npath = [{ time = 1 }, { time = 0 }]\n", 3, "order of time"},
       {species + "[[goal]]\n", 2, "position is missing in [[goal]]"},
       {species + "[[goal]]\nposition = [1, 2]\n", 3, "position in [[goal]] has 2 numbers"},
       {species + "[[goal]]\nposition = [1, 2, 3]\nspecies = \"brid\"\n", 4, "did you mean `bird`?"},
@@ -250,6 +359,14 @@ TEST(Scene, PageAndReaderAgree) {
   full.goals.emplace_back().species = "jackdaw";
   full.species[0].start = full.box;
   full.species[0].model.parameters.clear();
+  const Scene surroundings = Parse(kSurroundings);
+  full.goals = surroundings.goals;
+  full.obstacles = surroundings.obstacles;
+  full.shapes = surroundings.shapes;
+  full.paths = surroundings.paths;
+  full.events = surroundings.events;
+  full.events[0].change = {};
+  full.camera.path = surroundings.camera.path;
   std::istringstream lines(FormatScene(full));
   std::string heading;
   for (std::string line; std::getline(lines, line);) {
