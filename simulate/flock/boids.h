@@ -11,6 +11,8 @@
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_BOIDS_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_BOIDS_H_
 
+#include <string_view>
+
 #include "simulate/core/options.h"
 #include "simulate/forces/alignment.h"
 #include "simulate/forces/boundary.h"
@@ -21,6 +23,9 @@
 
 namespace flocklift {
 
+inline constexpr std::string_view kNoiseKinds[] = {"none", "white", "perlin", "curl"};
+enum class NoiseKind { kNone, kWhite, kPerlin, kCurl };  // indices of kNoiseKinds
+
 // Defaults: birds of the size of a jackdaw at 10 m/s. Rates are per `time_unit`.
 template <typename T>
 struct BoidsParameters {
@@ -30,8 +35,9 @@ struct BoidsParameters {
   T taper{0.0}, wall_taper{6.0};
   T cruise{1.2}, level{0.5};
   T goal_range{15.0};
-  T noise{2.5}, noise_time{0.8};
+  T noise{2.5}, noise_time{0.8}, noise_scale{10.0};
   T time_unit{1.0};
+  Choice noise_kind{kNoiseKinds, static_cast<int>(NoiseKind::kWhite)};
 };
 
 template <typename Visitor, typename T>
@@ -56,10 +62,13 @@ void Describe(Visitor& visit, BoidsParameters<T>& p) {
   visit("level", p.level, {.low = 0}, "1/s", "damping of climbing and sinking");
   visit("goal_range", p.goal_range, {.low = 1e-6}, "m",
         "an attraction point pulls as a spring nearer than this, constantly beyond");
+  visit("noise_kind", p.noise_kind, {}, "",
+        "white: each animal's own, correlated in time; perlin, curl: a field that stands in space");
   visit("noise", p.noise, {.low = 0}, "m/s^2",
-        "standard deviation of the random acceleration, per axis");
+        "random acceleration, per axis: standard deviation of white noise, amplitude of a field");
   visit("noise_time", p.noise_time, {.low = 0}, "s",
-        "correlation time of the random acceleration; 0: fresh at every step");
+        "correlation time of white noise; 0: fresh at every step");
+  visit("noise_scale", p.noise_scale, {.low = 1e-6}, "m", "edge of a field's lattice cell");
   visit("time_unit", p.time_unit, {.low = 1e-9}, "s", "what the other parameters call a second");
 }
 
@@ -80,6 +89,7 @@ inline BoidsParameters<double> AssignmentParameters() {
           .goal_range = 1e6,
           .noise = 0,
           .noise_time = 0,
+          .noise_scale = 100,
           .time_unit = 1.0 / 30};
 }
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "simulate/core/check.h"
+#include "simulate/fields/curl_noise.h"
 #include "simulate/flock/correlated_noise.h"
 #include "simulate/flock/force_passes.h"
 #include "simulate/flock/integrator.h"
@@ -150,13 +151,25 @@ class BoidsMotion final : public Motion<T> {
         a += MakeBoidsSelf(p_, low, high, herd->cruising_speed[agent]).At(x, v);
         a += GoalPull(around, *herd, static_cast<T>(p_.goal_range), x, v);
         a += Fear(around, x);
-        if (p_.noise > 0) {
-          a += noise_.Next(around, herd->first_agent, agent, p_.noise, p_.noise_time);
-        }
+        a += Noise(around, herd->first_agent, agent, x);
       }
       Advance(Flattened(around.flat(), a), dt, limit, &x, &v);
       s.Set(k, x, v);
     }
+  }
+
+  Vec3<T> Noise(const Surroundings& around, std::uint64_t first_agent, std::uint32_t agent,
+                const Vec3<T>& x) {
+    const auto kind = static_cast<NoiseKind>(p_.noise_kind.index);
+    if (p_.noise == 0 || kind == NoiseKind::kNone) return {};
+    if (kind == NoiseKind::kWhite) {
+      return noise_.Next(around, first_agent, agent, p_.noise, p_.noise_time);
+    }
+    // Of amplitude gain / scale = p.noise.
+    const NoiseTerm<T> field{static_cast<T>(p_.noise * p_.noise_scale),
+                             static_cast<T>(p_.noise_scale),
+                             static_cast<std::uint32_t>(around.world->seed)};
+    return kind == NoiseKind::kCurl ? CurlNoise(field, x) : PerlinVelocity(field, x);
   }
 
   BoidsParameters<double> p_;         // in seconds

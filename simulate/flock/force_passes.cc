@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "simulate/core/check.h"
+#include "simulate/fields/curl_noise.h"
 #include "simulate/flock/correlated_noise.h"
 #include "simulate/flock/force_types.h"
 #include "simulate/flock/surroundings_forces.h"
@@ -155,6 +156,19 @@ struct MakePass {
     return MakeAgentPass<T>([p](const Surroundings&, const Herd<T>&, std::size_t) {
       return Vec3<T>{T(0), T(0), F(-p.g)};
     });
+  }
+  Pass operator()(const CurlForce& p) const {
+    return MakeAgentPass<T>([p](const Surroundings& around, const Herd<T>& herd, std::size_t k) {
+      return CurlNoise(Field(p, around), herd.now.Position(k));
+    });
+  }
+  Pass operator()(const PerlinForce& p) const {
+    return MakeAgentPass<T>([p](const Surroundings& around, const Herd<T>& herd, std::size_t k) {
+      return PerlinVelocity(Field(p, around), herd.now.Position(k));
+    });
+  }
+  static NoiseTerm<T> Field(const FieldNoiseForce& p, const Surroundings& around) {
+    return {F(p.gain), F(p.scale), static_cast<std::uint32_t>(around.world->seed)};
   }
   Pass operator()(const NoiseForce& p) const { return std::make_unique<NoisePass<T>>(p, animals); }
 };

@@ -23,7 +23,9 @@ const Registry<ForceParameters>& Known() {
        {"wind", "along with the scene's wind", "", WindForce{}},
        {"drag", "against the own velocity", "Chen et al. 2019", DragForce{}},
        {"gravity", "downwards", "Wang et al. 2014 (morphing)", GravityForce{}},
-       {"noise", "random acceleration, correlated in time", "", NoiseForce{}}});
+       {"noise", "random acceleration, correlated in time", "", NoiseForce{}},
+       {"curl", "curl noise: a field without sources", "Chen et al. 2019", CurlForce{}},
+       {"perlin", "Perlin noise, the baseline of curl noise", "Wang et al. 2014", PerlinForce{}}});
   return registry;
 }
 

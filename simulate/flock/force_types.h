@@ -55,6 +55,13 @@ struct NoiseForce {
   double sd = 2.5, time = 0.8;
 };
 
+// A field of accelerations that stands in space.
+struct FieldNoiseForce {
+  double gain = 0.125, scale = 0.32;
+};
+struct CurlForce : FieldNoiseForce {};
+struct PerlinForce : FieldNoiseForce {};
+
 template <typename Visitor>
 void DescribeNeighbours(Visitor& visit, NeighbourForce& p, const char* unit, const char* help) {
   visit("gain", p.gain, {.low = -1e6, .high = 1e6}, unit, help);
@@ -118,9 +125,25 @@ void Describe(Visitor& visit, NoiseForce& p) {
   visit("time", p.time, {.low = 0, .high = 1e6}, "s", "correlation time; 0: white");
 }
 
-using ForceParameters = std::variant<SeparationForce, CohesionForce, AlignmentForce, RepulsionForce,
-                                     GoalForce, WallForce, CruiseForce, LevelForce, FleeForce,
-                                     WindForce, DragForce, GravityForce, NoiseForce>;
+template <typename Visitor>
+void DescribeFieldNoise(Visitor& visit, FieldNoiseForce& p) {
+  visit("gain", p.gain, {.low = 0, .high = 1e6}, "m^2/s^2",
+        "eta: the acceleration is of the order gain / scale");
+  visit("scale", p.scale, {.low = 1e-6, .high = 1e6}, "m", "rho: edge of a lattice cell");
+}
+template <typename Visitor>
+void Describe(Visitor& visit, CurlForce& p) {
+  DescribeFieldNoise(visit, p);
+}
+template <typename Visitor>
+void Describe(Visitor& visit, PerlinForce& p) {
+  DescribeFieldNoise(visit, p);
+}
+
+using ForceParameters =
+    std::variant<SeparationForce, CohesionForce, AlignmentForce, RepulsionForce, GoalForce,
+                 WallForce, CruiseForce, LevelForce, FleeForce, WindForce, DragForce, GravityForce,
+                 NoiseForce, CurlForce, PerlinForce>;
 
 const std::vector<ModelInfo>& ForceTypes();
 

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "simulate/core/rigid3.h"
+#include "simulate/fields/curl_noise.h"
 #include "tests/simulate/flock/flocks.h"
 #include "tests/support/gradient_check.h"
 
@@ -176,6 +177,29 @@ TEST(Boids, Gradient) {
     in[22] += shift;
     ExpectGradientMatches(Acceleration{}, in);
   }
+}
+
+TEST(Boids, NoiseIsOfItsKind) {
+  // One animal without rules moves by the noise alone.
+  const NamedFlock one{"", {{2.3, 0.4, -1.7}}, {{0, 0, 0}}};
+  const auto velocity = [&one](NoiseKind kind) {
+    BoidsParameters<double> p = PlainRules(1, 1);
+    p.noise = 2;
+    p.noise_scale = 3;
+    p.noise_kind.index = static_cast<int>(kind);
+    World world;
+    world.dt = 0.5;
+    ReferenceEngine engine(world, {AsSwarm(one, p)}, {});
+    engine.Step();
+    return engine.State().velocity[0];
+  };
+  const NoiseTerm<double> field{6, 3, 1};  // of the world's default seed
+  EXPECT_EQ(velocity(NoiseKind::kNone), Vec3d{});
+  EXPECT_LT(Norm(velocity(NoiseKind::kCurl) - 0.5 * CurlNoise(field, one.position[0])), 1e-9);
+  EXPECT_LT(Norm(velocity(NoiseKind::kPerlin) - 0.5 * PerlinVelocity(field, one.position[0])),
+            1e-9);
+  EXPECT_GT(Norm(velocity(NoiseKind::kWhite)), 0.01);
+  EXPECT_GT(Norm(velocity(NoiseKind::kCurl)), 0.01);
 }
 
 }  // namespace

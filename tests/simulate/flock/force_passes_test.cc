@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "simulate/core/check.h"
+#include "simulate/fields/curl_noise.h"
 #include "simulate/flock/engine.h"
 #include "simulate/flock/force_types.h"
 #include "tests/simulate/flock/flocks.h"
@@ -90,6 +91,18 @@ TEST(ForcePasses, AgentTermsByHand) {
   ExpectNear(Alone(world, Force("walls", {{"gain", 7}, {"taper", 0}}), x, v), {-7, 0, 0});
   ExpectNear(Alone(world, Force("goal", {{"range", 1e6}}), x, v), {1, 0, 0});
   ExpectNear(Alone(world, Force("cruise", {{"rate", 1}}), x, v), {0, 0, 0});  // at its own speed
+}
+
+TEST(ForcePasses, NoiseFieldsAreThoseOfTheFieldsRoom) {
+  World world;
+  world.seed = 5;
+  const Vec3d x{2.3, 0.4, -1.7};
+  const NoiseTerm<double> field{0.7, 1.3, 5};
+  ExpectNear(Alone(world, Force("curl", {{"gain", 0.7}, {"scale", 1.3}}), x, {}),
+             CurlNoise(field, x));
+  ExpectNear(Alone(world, Force("perlin", {{"gain", 0.7}, {"scale", 1.3}}), x, {}),
+             PerlinVelocity(field, x));
+  EXPECT_GT(Norm(CurlNoise(field, x)), 0.01);
 }
 
 TEST(ForcePasses, RepulsionFallsWithThePowerOfDistance) {
