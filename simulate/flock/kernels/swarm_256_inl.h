@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the swarm kernel does its own way with packs of 256 bits; FLOCKLIFT_SWARM_ARCH names the
+// instruction set. Gradients come from three tables of sixteen bytes: a byte is the top of a float,
+// and 2, -2 and 0 have nothing below it.
+
+#ifndef FLOCKLIFT_SIMULATE_FLOCK_KERNELS_SWARM_256_INL_H_
+#define FLOCKLIFT_SIMULATE_FLOCK_KERNELS_SWARM_256_INL_H_
+
+#include <immintrin.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <xsimd/xsimd.hpp>
+
+#include "simulate/flock/kernels/lattice_pack.h"
+
+namespace flocklift {
+
+template <>
+struct GradientOfPack<FLOCKLIFT_SWARM_ARCH> {
+  using Pack = xsimd::batch<float, FLOCKLIFT_SWARM_ARCH>;
+  using Bits = xsimd::batch<std::uint32_t, FLOCKLIFT_SWARM_ARCH>;
+
+  // Component `axis` of the sixteen gradients, in both halves.
+  [[gnu::always_inline]] static __m256i Table(int axis) {
+    const auto byte = [axis](int k) __attribute__((always_inline)) {
+      const int component = kDoubledGradients[k][axis];
+      return static_cast<char>(component == 0 ? 0 : component > 0 ? 0x40 : 0xC0);
+    };
+    const __m128i table =
+        _mm_setr_epi8(byte(0), byte(1), byte(2), byte(3), byte(4), byte(5), byte(6), byte(7),
+                      byte(8), byte(9), byte(10), byte(11), byte(12), byte(13), byte(14), byte(15));
+    return _mm256_broadcastsi128_si256(table);
+  }
+
+  [[gnu::always_inline]] static Vec3<Pack> At(const Bits& number) {
+    // The number goes to the top byte; a byte whose highest bit is set gives 0.
+    const __m256i index =
+        _mm256_or_si256(_mm256_srli_epi32(number.data, 4), _mm256_set1_epi32(0x00808080));
+    const auto look_up = [&index](int axis) __attribute__((always_inline)) {
+      return Pack(_mm256_castsi256_ps(_mm256_shuffle_epi8(Table(axis), index)));
+    };
+    return {look_up(0), look_up(1), look_up(2)};
+  }
+};
+
+namespace {
+
+__m256 LerpEight(__m256 a, __m256 b, __m256 t) {
+  return _mm256_add_ps(a, _mm256_mul_ps(t, _mm256_sub_ps(b, a)));
+}
+
+// Two nodes that are neighbours along x are one load.
+void LerpNodes(const float* node, std::size_t row, std::size_t plane, float u, float v, float w,
+               float* out) {
+  const __m256 tz = _mm256_set1_ps(w);
+  const auto along_z = [&](const float* p) {
+    return LerpEight(_mm256_loadu_ps(p), _mm256_loadu_ps(p + plane), tz);
+  };
+  const __m256 both = LerpEight(along_z(node), along_z(node + row), _mm256_set1_ps(v));
+  const __m128 low = _mm256_castps256_ps128(both), high = _mm256_extractf128_ps(both, 1);
+  _mm_storeu_ps(out, _mm_add_ps(low, _mm_mul_ps(_mm_set1_ps(u), _mm_sub_ps(high, low))));
+}
+
+}  // namespace
+}  // namespace flocklift
+
+#include "simulate/flock/kernels/swarm_kernel_inl.h"
+
+#endif  // FLOCKLIFT_SIMULATE_FLOCK_KERNELS_SWARM_256_INL_H_

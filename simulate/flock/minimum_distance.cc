@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/flock/minimum_distance.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace flocklift {
+namespace {
+
+constexpr std::int64_t kGrain = 2048;         // animals a chunk of work
+constexpr double kCellPerReach = 1.05;        // half a cell against the largest distance; round-off
+constexpr std::size_t kCellsPerAnimal = 32;   // of the first table
+constexpr std::size_t kBucketsPerAnimal = 4;  // of the second
+constexpr std::uint32_t kAcrossY = 0x9E3779B1U, kAcrossZ = 0x85EBCA77U;  // odd; along x: 1
+
+// The next power of two of `least`, at least 64.
+std::uint32_t TableSize(std::size_t least) {
+  return static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(least, 64)));
+}
+
+// The second table is small: all bits of the address count.
+std::uint32_t Bucket(std::uint32_t address, std::uint32_t mask) {
+  return (address * 0x2C1B3C6DU >> 12) & mask;
+}
+
+// The largest whole number below u. Far outside all animals are in one place; so is what is not a
+// number.
+template <typename T>
+std::uint32_t Floor(T u) {
+  const T far = T(1 << 30);
+  const T kept = std::min(far, std::max(-far, u));
+  const auto cut = static_cast<std::int32_t>(kept);
+  return static_cast<std::uint32_t>(cut - (static_cast<T>(cut) > kept ? 1 : 0));
+}
+
+// Where the cell of a place is in a table. `shift`, in cells, is taken off the place before: with
+// 1/2 this is the lowest of the eight cells that hold all that may be too near, the others being
+// further by kAcrossX, kAcrossY, kAcrossZ and their sums.
+template <typename T>
+std::uint32_t Address(T x, T y, T z, T per_cell, T shift) {
+  return Floor(x * per_cell - shift) + Floor(y * per_cell - shift) * kAcrossY +
+         Floor(z * per_cell - shift) * kAcrossZ;
+}
+
+}  // namespace
+
+template <typename T>
+void MinimumDistance<T>::Gather(std::span<const Crowd<T>> crowds, ThreadPool* pool) {
+  std::size_t total = 0;
+  for (const Crowd<T>& crowd : crowds) total += crowd.size;
+  places_.resize(total);
+  Place* to = places_.data();
+  for (const Crowd<T>& crowd : crowds) {
+    pool->For(0, static_cast<std::int64_t>(crowd.size), kGrain,
+              [&](std::int64_t first, std::int64_t last) {
+                for (std::int64_t k = first; k < last; ++k) {
+                  to[k] = {crowd.x[k], crowd.y[k], crowd.z[k],
+                           crowd.body != nullptr ? crowd.room + crowd.body[k] : crowd.room};
+                }
+              });
+    to += crowd.size;
+  }
+}
+
+template <typename T>
+void MinimumDistance<T>::Count(T per_cell, ThreadPool* pool) {
+  const auto n = static_cast<std::int64_t>(places_.size());
+  const std::uint32_t cells = TableSize(kCellsPerAnimal * places_.size()), mask = cells - 1;
+  counts_.resize(cells + 1);
+  address_.resize(places_.size());
+  pool->For(0, n, kGrain, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t k = first; k < last; ++k) {
+      const Place& p = places_[k];
+      address_[k] = mask & Address(p.x, p.y, p.z, per_cell, T(0));
+    }
+  });
+  // Every thread looks at all animals and counts those of its part of the table.
+  const std::uint32_t parts = std::bit_floor(static_cast<unsigned>(pool->threads()));
+  const int shift = std::countr_zero(cells / parts);
+  pool->For(0, parts, 1, [&](std::int64_t part, std::int64_t) {
+    std::uint8_t* const counts = counts_.data();
+    std::fill_n(counts + (part << shift), std::size_t{1} << shift, std::uint8_t{0});
+    for (const std::uint32_t address : address_) {
+      if (parts > 1 && address >> shift != static_cast<std::uint32_t>(part)) continue;
+      counts[address] = static_cast<std::uint8_t>(counts[address] + (counts[address] < 255));
+    }
+  });
+  counts_[cells] = counts_[0];  // so that two neighbours along x may always be read together
+}
+
+template <typename T>
+void MinimumDistance<T>::FindCompany(T per_cell, ThreadPool* pool) {
+  const auto n = static_cast<std::int64_t>(places_.size());
+  const auto mask = static_cast<std::uint32_t>(counts_.size() - 2);
+  company_.resize(static_cast<std::size_t>((n + kGrain - 1) / kGrain));
+  pool->For(0, n, kGrain, [&](std::int64_t first, std::int64_t last) {
+    const std::uint8_t* const counts = counts_.data();
+    std::vector<std::uint32_t>& found = company_[static_cast<std::size_t>(first / kGrain)];
+    found.resize(static_cast<std::size_t>(last - first));
+    for (std::int64_t k = first; k < last; ++k) {
+      const Place& p = places_[k];
+      found[k - first] = Address(p.x, p.y, p.z, per_cell, T(0.5));
+    }
+    std::size_t count = 0;
+    for (std::int64_t k = first; k < last; ++k) {
+      const std::uint32_t lowest = found[k - first];
+      const auto row = [&](std::uint32_t across) {
+        const std::uint8_t* const at = counts + (mask & (lowest + across));
+        return at[0] + at[1];
+      };
+      const int all = row(0) + row(kAcrossY) + row(kAcrossZ) + row(kAcrossY + kAcrossZ);
+      found[count] = static_cast<std::uint32_t>(k);  // at most where it was read
+      count += all > 1 ? 1 : 0;
+    }
+    found.resize(count);
+  });
+  crowded_.clear();
+  for (const auto& found : company_) crowded_.insert(crowded_.end(), found.begin(), found.end());
+}
+
+template <typename T>
+void MinimumDistance<T>::Chain(T per_cell) {
+  const std::uint32_t buckets = TableSize(kBucketsPerAnimal * crowded_.size());
+  head_.assign(buckets, -1);
+  next_.resize(crowded_.size());
+  close_.resize(crowded_.size());
+  for (std::size_t k = 0; k < crowded_.size(); ++k) {
+    const Place p = places_[crowded_[k]];
+    const std::uint32_t bucket = Bucket(Address(p.x, p.y, p.z, per_cell, T(0)), buckets - 1);
+    close_[k] = p;
+    next_[k] = head_[bucket];
+    head_[bucket] = static_cast<std::int32_t>(k);
+  }
+}
+
+template <typename T>
+Vec3<T> MinimumDistance<T>::Push(T per_cell, std::size_t self, bool* touched) const {
+  const Place p = close_[self];
+  const std::uint32_t lowest = Address(p.x, p.y, p.z, per_cell, T(0.5));
+  const auto mask = static_cast<std::uint32_t>(head_.size() - 1);
+  std::uint32_t buckets[8];
+  int count = 0;
+  Vec3<T> push{};
+  for (std::uint32_t corner = 0; corner < 8; ++corner) {
+    const std::uint32_t bucket = Bucket(
+        lowest + (corner & 1) + (corner >> 1 & 1) * kAcrossY + (corner >> 2) * kAcrossZ, mask);
+    // Two cells may share a bucket; each is walked through once.
+    if (head_[bucket] < 0 || std::find(buckets, buckets + count, bucket) != buckets + count) {
+      continue;
+    }
+    buckets[count++] = bucket;
+    for (std::int32_t other = head_[bucket]; other >= 0; other = next_[other]) {
+      const auto j = static_cast<std::size_t>(other);
+      const Place& q = close_[j];
+      const Vec3<T> r{q.x - p.x, q.y - p.y, q.z - p.z};
+      const T squared = SquaredNorm(r), least = p.room + q.room;
+      if (!(squared < least * least) || j == self) continue;
+      *touched = true;
+      const T length = std::sqrt(squared), half = T(0.5) * (least - length);
+      push -= length > 0 ? r * (half / length) : Vec3<T>{j > self ? half : -half, T(0), T(0)};
+    }
+  }
+  return push;
+}
+
+template <typename T>
+std::int64_t MinimumDistance<T>::Enforce(std::span<const Crowd<T>> crowds, ThreadPool* pool) {
+  Gather(crowds, pool);
+  T most = 0;
+  for (const Crowd<T>& crowd : crowds) {
+    if (crowd.body == nullptr) most = std::max(most, crowd.room);
+  }
+  for (const Crowd<T>& crowd : crowds) {
+    for (std::size_t k = 0; crowd.body != nullptr && k < crowd.size; ++k) {
+      most = std::max(most, crowd.room + crowd.body[k]);
+    }
+  }
+  if (!(most > 0) || places_.size() < 2) return 0;
+  const T per_cell = T(1) / static_cast<T>(2 * kCellPerReach * 2 * static_cast<double>(most));
+  Count(per_cell, pool);
+  FindCompany(per_cell, pool);
+  Chain(per_cell);
+
+  const auto crowded = static_cast<std::int64_t>(crowded_.size());
+  push_.resize(crowded_.size());
+  touched_.assign(crowded_.size(), 0);
+  pool->For(0, crowded, kGrain / 8, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t k = first; k < last; ++k) {
+      bool touched = false;
+      push_[k] = Push(per_cell, static_cast<std::size_t>(k), &touched);
+      touched_[k] = touched ? 1 : 0;
+    }
+  });
+  std::int64_t moved = 0;
+  std::size_t crowd = 0, before = 0;  // the species of an animal, and how many are in those before
+  for (std::size_t k = 0; k < crowded_.size(); ++k) {
+    while (crowded_[k] - before >= crowds[crowd].size) before += crowds[crowd++].size;
+    if (touched_[k] == 0) continue;
+    ++moved;
+    const std::size_t at = crowded_[k] - before;
+    crowds[crowd].x[at] += push_[k].x;
+    crowds[crowd].y[at] += push_[k].y;
+    crowds[crowd].z[at] += push_[k].z;
+  }
+  return moved;
+}
+
+template class MinimumDistance<float>;
+template class MinimumDistance<double>;
+
+}  // namespace flocklift
