@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <type_traits>
+
+#include "simulate/flock/kernels/swarm_kernel.h"
 
 namespace flocklift {
 namespace {
@@ -38,7 +41,7 @@ std::uint32_t Floor(T u) {
 
 // Where the cell of a place is in a table. `shift`, in cells, is taken off the place before: with
 // 1/2 this is the lowest of the eight cells that hold all that may be too near, the others being
-// further by kAcrossX, kAcrossY, kAcrossZ and their sums.
+// further by 1, kAcrossY, kAcrossZ and their sums.
 template <typename T>
 std::uint32_t Address(T x, T y, T z, T per_cell, T shift) {
   return Floor(x * per_cell - shift) + Floor(y * per_cell - shift) * kAcrossY +
@@ -46,6 +49,29 @@ std::uint32_t Address(T x, T y, T z, T per_cell, T shift) {
 }
 
 }  // namespace
+
+template <typename T>
+void MinimumDistance<T>::NumberCells(std::span<const Crowd<T>> crowds, T per_cell, T shift,
+                                     ThreadPool* pool) {
+  cell_.resize(places_.size());
+  std::uint32_t* to = cell_.data();
+  for (const Crowd<T>& crowd : crowds) {
+    pool->For(0, static_cast<std::int64_t>(crowd.size), kGrain,
+              [&](std::int64_t first, std::int64_t last) {
+                std::int64_t k = first;
+                if constexpr (std::is_same_v<T, float>) {
+                  k = first + (last - first) / 8 * 8;
+                  FastestSwarmKernel().cells(
+                      {crowd.x, crowd.y, crowd.z, per_cell, shift, kAcrossY, kAcrossZ, to},
+                      static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(k));
+                }
+                for (; k < last; ++k) {
+                  to[k] = Address(crowd.x[k], crowd.y[k], crowd.z[k], per_cell, shift);
+                }
+              });
+    to += crowd.size;
+  }
+}
 
 template <typename T>
 void MinimumDistance<T>::Gather(std::span<const Crowd<T>> crowds, ThreadPool* pool) {
@@ -66,24 +92,17 @@ void MinimumDistance<T>::Gather(std::span<const Crowd<T>> crowds, ThreadPool* po
 }
 
 template <typename T>
-void MinimumDistance<T>::Count(T per_cell, ThreadPool* pool) {
-  const auto n = static_cast<std::int64_t>(places_.size());
+void MinimumDistance<T>::Count(ThreadPool* pool) {
   const std::uint32_t cells = TableSize(kCellsPerAnimal * places_.size()), mask = cells - 1;
   counts_.resize(cells + 1);
-  address_.resize(places_.size());
-  pool->For(0, n, kGrain, [&](std::int64_t first, std::int64_t last) {
-    for (std::int64_t k = first; k < last; ++k) {
-      const Place& p = places_[k];
-      address_[k] = mask & Address(p.x, p.y, p.z, per_cell, T(0));
-    }
-  });
   // Every thread looks at all animals and counts those of its part of the table.
   const std::uint32_t parts = std::bit_floor(static_cast<unsigned>(pool->threads()));
   const int shift = std::countr_zero(cells / parts);
   pool->For(0, parts, 1, [&](std::int64_t part, std::int64_t) {
     std::uint8_t* const counts = counts_.data();
     std::fill_n(counts + (part << shift), std::size_t{1} << shift, std::uint8_t{0});
-    for (const std::uint32_t address : address_) {
+    for (const std::uint32_t cell : cell_) {
+      const std::uint32_t address = cell & mask;
       if (parts > 1 && address >> shift != static_cast<std::uint32_t>(part)) continue;
       counts[address] = static_cast<std::uint8_t>(counts[address] + (counts[address] < 255));
     }
@@ -92,7 +111,7 @@ void MinimumDistance<T>::Count(T per_cell, ThreadPool* pool) {
 }
 
 template <typename T>
-void MinimumDistance<T>::FindCompany(T per_cell, ThreadPool* pool) {
+void MinimumDistance<T>::FindCompany(ThreadPool* pool) {
   const auto n = static_cast<std::int64_t>(places_.size());
   const auto mask = static_cast<std::uint32_t>(counts_.size() - 2);
   company_.resize(static_cast<std::size_t>((n + kGrain - 1) / kGrain));
@@ -100,19 +119,15 @@ void MinimumDistance<T>::FindCompany(T per_cell, ThreadPool* pool) {
     const std::uint8_t* const counts = counts_.data();
     std::vector<std::uint32_t>& found = company_[static_cast<std::size_t>(first / kGrain)];
     found.resize(static_cast<std::size_t>(last - first));
-    for (std::int64_t k = first; k < last; ++k) {
-      const Place& p = places_[k];
-      found[k - first] = Address(p.x, p.y, p.z, per_cell, T(0.5));
-    }
     std::size_t count = 0;
     for (std::int64_t k = first; k < last; ++k) {
-      const std::uint32_t lowest = found[k - first];
+      const std::uint32_t lowest = cell_[k];
       const auto row = [&](std::uint32_t across) {
         const std::uint8_t* const at = counts + (mask & (lowest + across));
         return at[0] + at[1];
       };
       const int all = row(0) + row(kAcrossY) + row(kAcrossZ) + row(kAcrossY + kAcrossZ);
-      found[count] = static_cast<std::uint32_t>(k);  // at most where it was read
+      found[count] = static_cast<std::uint32_t>(k);
       count += all > 1 ? 1 : 0;
     }
     found.resize(count);
@@ -180,8 +195,10 @@ std::int64_t MinimumDistance<T>::Enforce(std::span<const Crowd<T>> crowds, Threa
   }
   if (!(most > 0) || places_.size() < 2) return 0;
   const T per_cell = T(1) / static_cast<T>(2 * kCellPerReach * 2 * static_cast<double>(most));
-  Count(per_cell, pool);
-  FindCompany(per_cell, pool);
+  NumberCells(crowds, per_cell, T(0), pool);
+  Count(pool);
+  NumberCells(crowds, per_cell, T(0.5), pool);
+  FindCompany(pool);
   Chain(per_cell);
 
   const auto crowded = static_cast<std::int64_t>(crowded_.size());

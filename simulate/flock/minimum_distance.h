@@ -49,13 +49,14 @@ class MinimumDistance {
   };
 
   void Gather(std::span<const Crowd<T>> crowds, ThreadPool* pool);
-  void Count(T per_cell, ThreadPool* pool);
-  void FindCompany(T per_cell, ThreadPool* pool);
+  void NumberCells(std::span<const Crowd<T>> crowds, T per_cell, T shift, ThreadPool* pool);
+  void Count(ThreadPool* pool);
+  void FindCompany(ThreadPool* pool);
   void Chain(T per_cell);
   Vec3<T> Push(T per_cell, std::size_t self, bool* touched) const;
 
   std::vector<Place> places_;                        // of all animals
-  std::vector<std::uint32_t> address_;               // of each animal's cell in counts_
+  std::vector<std::uint32_t> cell_;                  // of each animal, before it is hashed
   std::vector<std::uint8_t> counts_;                 // animals by hashed cell, up to 255
   std::vector<std::vector<std::uint32_t>> company_;  // those with company, by chunk of animals
   std::vector<std::uint32_t> crowded_;               // the same, all

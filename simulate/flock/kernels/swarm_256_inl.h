@@ -10,7 +10,6 @@
 
 #include <immintrin.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
 
@@ -52,17 +51,22 @@ __m256 LerpEight(__m256 a, __m256 b, __m256 t) {
   return _mm256_add_ps(a, _mm256_mul_ps(t, _mm256_sub_ps(b, a)));
 }
 
-// Two nodes that are neighbours along x are one load.
-void LerpNodes(const float* node, std::size_t row, std::size_t plane, float u, float v, float w,
-               float* out) {
+// Two corners that are neighbours along x are eight bytes, and eight floats.
+void LerpCorners(const std::int8_t* cell, float u, float v, float w, float* four) {
   const __m256 tz = _mm256_set1_ps(w);
-  const auto along_z = [&](const float* p) {
-    return LerpEight(_mm256_loadu_ps(p), _mm256_loadu_ps(p + plane), tz);
+  const auto along_z = [&](const std::int8_t* p) {
+    const auto widen = [](const std::int8_t* q) {
+      return _mm256_cvtepi32_ps(
+          _mm256_cvtepi8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(q))));
+    };
+    return LerpEight(widen(p), widen(p + 16), tz);
   };
-  const __m256 both = LerpEight(along_z(node), along_z(node + row), _mm256_set1_ps(v));
+  const __m256 both = LerpEight(along_z(cell), along_z(cell + 8), _mm256_set1_ps(v));
   const __m128 low = _mm256_castps256_ps128(both), high = _mm256_extractf128_ps(both, 1);
-  _mm_storeu_ps(out, _mm_add_ps(low, _mm_mul_ps(_mm_set1_ps(u), _mm_sub_ps(high, low))));
+  _mm_storeu_ps(four, _mm_add_ps(low, _mm_mul_ps(_mm_set1_ps(u), _mm_sub_ps(high, low))));
 }
+
+void Prefetch(const void* at) { _mm_prefetch(static_cast<const char*>(at), _MM_HINT_T0); }
 
 }  // namespace
 }  // namespace flocklift

@@ -15,4 +15,8 @@ void SwarmKernelAvx2(const SwarmJob& job, std::uint32_t first, std::uint32_t las
   SwarmVelocities<xsimd::batch<float, Avx2>>(job, first, last);
 }
 
+void CellKernelAvx2(const CellJob& job, std::uint32_t first, std::uint32_t last) {
+  CellNumbers<xsimd::batch<float, Avx2>>(job, first, last);
+}
+
 }  // namespace flocklift

@@ -15,4 +15,8 @@ void SwarmKernelAvx512(const SwarmJob& job, std::uint32_t first, std::uint32_t l
   SwarmVelocities<xsimd::batch<float, Avx512Vl>>(job, first, last);
 }
 
+void CellKernelAvx512(const CellJob& job, std::uint32_t first, std::uint32_t last) {
+  CellNumbers<xsimd::batch<float, Avx512Vl>>(job, first, last);
+}
+
 }  // namespace flocklift

@@ -8,13 +8,13 @@
 namespace flocklift {
 
 const SwarmKernelVariant kSwarmKernels[kSwarmKernelVariants] = {
-    {"sse2", [] { return true; }, SwarmKernelSse2},
+    {"sse2", [] { return true; }, SwarmKernelSse2, CellKernelSse2},
     {"avx2",
      [] { return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0; },
-     SwarmKernelAvx2},
+     SwarmKernelAvx2, CellKernelAvx2},
     {"avx512",
      [] { return __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("fma") != 0; },
-     SwarmKernelAvx512},
+     SwarmKernelAvx512, CellKernelAvx512},
 };
 
 void SwarmKernelScalar(const SwarmJob& job, std::uint32_t first, std::uint32_t last) {
@@ -22,15 +22,23 @@ void SwarmKernelScalar(const SwarmJob& job, std::uint32_t first, std::uint32_t l
     const Vec3<float> x{job.x[k], job.y[k], job.z[k]};
     Vec3<float> v{0, 0, 0};
     for (int n = 0; n < job.noise_count; ++n) v += SwarmNoiseVelocity(job, n, x);
-    if (job.grid.nodes != nullptr) {
-      const GuideSample<float> guide = SampleGuide<float>(job.grid, x);
-      v += guide.direction * job.speed;
+    if (job.guide.cells != nullptr) {
+      const GuideSample<float> guide = SampleGuide<float>(job.guide, x);
+      v += guide.velocity;
       job.distance[k] = guide.distance;
     }
     job.vx[k] = v.x;
     job.vy[k] = v.y;
     job.vz[k] = v.z;
   }
+}
+
+const SwarmKernelVariant& FastestSwarmKernel() {
+  const SwarmKernelVariant* best = nullptr;
+  for (const SwarmKernelVariant& variant : kSwarmKernels) {
+    if (variant.supported()) best = &variant;
+  }
+  return *best;
 }
 
 }  // namespace flocklift

@@ -20,32 +20,48 @@ struct SwarmNoise {
   std::uint32_t seed;
 };
 
-// A grid of four numbers a node, x fastest, at least two nodes along each axis: a direction, and
-// the distance to the nearest wall [m]. Trilinear between the nodes; beyond them as at the rim.
-struct SwarmGrid {
-  const float* nodes;
-  float low_x, low_y, low_z, per_spacing;  // of the first node [m], and 1 / spacing [1/m]
-  int nx, ny, nz;
+// A direction and the distance to the nearest wall everywhere: for every cell of a grid, x fastest,
+// its eight corners (x, then y, then z) of four bytes each, in 127ths of `speed` and of `reach`. A
+// cell is 32 bytes on one cache line; that it repeats its neighbours' corners is the price.
+// Trilinear within the cell; beyond the grid as at its rim.
+struct SwarmGuide {
+  const std::int8_t* cells;
+  float low_x, low_y, low_z, per_spacing;  // of the first corner [m], and 1 / spacing [1/m]
+  int nx, ny, nz;                          // cells
+  float speed;                             // [m/s]
+  float reach;                             // [m]
 };
+inline constexpr int kGuideCellBytes = 32;
 
 struct SwarmJob {
   const float *x, *y, *z;  // [m], padded
   const SwarmNoise* noise;
   int noise_count;
   bool curl;            // of the noise; else the noise itself over its scale
-  SwarmGrid grid;       // nodes null: there is none
-  float speed;          // times the direction of the grid [m/s]
+  SwarmGuide guide;     // cells null: there is none
   float *vx, *vy, *vz;  // [m/s], written
-  float* distance;      // to the nearest wall [m], written if there is a grid
+  float* distance;      // to the nearest wall [m], written if there is a guide
 };
 
 // Does the animals first .. last - 1, and may write the padding; first is a multiple of 16.
 using SwarmKernel = void (*)(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
 
+// Numbers of the cells in which points are, for minimum-distance enforcement: with c = floor(x
+// per_cell - shift) along each axis, c_x + c_y across_y + c_z across_z modulo 2^32.
+struct CellJob {
+  const float *x, *y, *z;  // [m]
+  float per_cell, shift;   // [1/m], in cells
+  std::uint32_t across_y, across_z;
+  std::uint32_t* cell;  // written
+};
+// Does the points first .. last - 1, both multiples of 8.
+using CellKernel = void (*)(const CellJob& job, std::uint32_t first, std::uint32_t last);
+
 struct SwarmKernelVariant {
   const char* name;
   bool (*supported)();  // by this machine
   SwarmKernel kernel;
+  CellKernel cells;
 };
 
 // From the most portable to the fastest.
@@ -53,11 +69,17 @@ inline constexpr int kSwarmKernelVariants = 3;
 extern const SwarmKernelVariant kSwarmKernels[kSwarmKernelVariants];
 
 void SwarmKernelSse2(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
+void CellKernelSse2(const CellJob& job, std::uint32_t first, std::uint32_t last);
 void SwarmKernelAvx2(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
+void CellKernelAvx2(const CellJob& job, std::uint32_t first, std::uint32_t last);
 void SwarmKernelAvx512(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
+void CellKernelAvx512(const CellJob& job, std::uint32_t first, std::uint32_t last);
 
 // The same, one animal at a time.
 void SwarmKernelScalar(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
+
+// The fastest variant that this machine has.
+const SwarmKernelVariant& FastestSwarmKernel();
 
 }  // namespace flocklift
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The body of every variant of the swarm kernel; included once by each, after it has defined
-//   void LerpNodes(const float* node, size_t row, size_t plane, float u, float v, float w, float*)
-// which blends the four numbers of eight nodes: along z, then y, then x, each a + t (b - a).
+//   void LerpCorners(const int8_t* cell, float u, float v, float w, float* four)
+//   void Prefetch(const void*)
+// the first blends the numbers of a cell's corners: along z, then y, then x, each a + t (b - a).
 // Everything lives in an anonymous namespace (boids_kernel.h says why).
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_KERNELS_SWARM_KERNEL_INL_H_
@@ -20,70 +21,110 @@
 namespace flocklift {
 namespace {
 
-// Where a pack of animals is along one axis of the grid.
-template <typename Pack>
-struct GridPlace {
-  Pack cell;   // lower node
-  Pack share;  // of the way to the next
+// As many animals as are looked up ahead of being used.
+inline constexpr std::uint32_t kAhead = 64;
+
+// Where in the guide some animals are.
+struct GuidePlaces {
+  alignas(64) const std::int8_t* cell[kAhead];
+  alignas(64) float share[3][kAhead];  // of the way through the cell
 };
 
+// A cell's number along one axis.
 template <typename Pack>
-GridPlace<Pack> PlaceOnGrid(const Pack& x, float low, float per_spacing, int nodes) {
+Pack PlaceAlong(const Pack& x, float low, float per_spacing, int cells, float* share) {
   const Pack u = xsimd::min(xsimd::max(Pack(0.0f), (x - Pack(low)) * Pack(per_spacing)),
-                            Pack(static_cast<float>(nodes - 1)));
-  const Pack cell = xsimd::min(xsimd::floor(u), Pack(static_cast<float>(nodes - 2)));
-  return {cell, u - cell};
+                            Pack(static_cast<float>(cells)));
+  const Pack cell = xsimd::min(xsimd::floor(u), Pack(static_cast<float>(cells - 1)));
+  (u - cell).store_aligned(share);
+  return cell;
 }
 
-// Adds speed times the grid's direction to v; the return is the distance.
 template <typename Pack>
-Pack AddGuide(const SwarmGrid& grid, float speed, const Vec3<Pack>& x, Vec3<Pack>* v) {
-  constexpr std::size_t kLanes = Pack::size;
-  const GridPlace<Pack> a = PlaceOnGrid(x.x, grid.low_x, grid.per_spacing, grid.nx);
-  const GridPlace<Pack> b = PlaceOnGrid(x.y, grid.low_y, grid.per_spacing, grid.ny);
-  const GridPlace<Pack> c = PlaceOnGrid(x.z, grid.low_z, grid.per_spacing, grid.nz);
-  alignas(64) float cells[3][kLanes], shares[3][kLanes], found[kLanes][4], columns[4][kLanes];
-  a.cell.store_aligned(cells[0]);
-  b.cell.store_aligned(cells[1]);
-  c.cell.store_aligned(cells[2]);
-  a.share.store_aligned(shares[0]);
-  b.share.store_aligned(shares[1]);
-  c.share.store_aligned(shares[2]);
-  const std::size_t row = 4 * static_cast<std::size_t>(grid.nx);
-  const std::size_t plane = row * static_cast<std::size_t>(grid.ny);
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    const float* const node = grid.nodes + static_cast<std::uint32_t>(cells[2][k]) * plane +
-                              static_cast<std::uint32_t>(cells[1][k]) * row +
-                              static_cast<std::uint32_t>(cells[0][k]) * 4U;
-    LerpNodes(node, row, plane, shares[0][k], shares[1][k], shares[2][k], found[k]);
+void FindPlaces(const SwarmJob& job, std::uint32_t first, std::uint32_t last, GuidePlaces* places) {
+  const SwarmGuide& g = job.guide;
+  const auto nx = static_cast<std::size_t>(g.nx), ny = static_cast<std::size_t>(g.ny);
+  for (std::uint32_t k = first; k < last; k += Pack::size) {
+    const std::uint32_t at = k - first;
+    alignas(64) float a[Pack::size], b[Pack::size], c[Pack::size];
+    PlaceAlong(Pack::load_unaligned(job.x + k), g.low_x, g.per_spacing, g.nx, places->share[0] + at)
+        .store_aligned(a);
+    PlaceAlong(Pack::load_unaligned(job.y + k), g.low_y, g.per_spacing, g.ny, places->share[1] + at)
+        .store_aligned(b);
+    PlaceAlong(Pack::load_unaligned(job.z + k), g.low_z, g.per_spacing, g.nz, places->share[2] + at)
+        .store_aligned(c);
+    for (std::size_t lane = 0; lane < Pack::size; ++lane) {
+      const auto i = static_cast<std::uint32_t>(a[lane]), j = static_cast<std::uint32_t>(b[lane]),
+                 l = static_cast<std::uint32_t>(c[lane]);
+      const std::int8_t* const cell = g.cells + kGuideCellBytes * ((l * ny + j) * nx + i);
+      places->cell[at + lane] = cell;
+      Prefetch(cell);
+    }
   }
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    for (std::size_t n = 0; n < 4; ++n) columns[n][k] = found[k][n];
+}
+
+// Adds the guide's velocity to that of a pack, animal `at` of the places and following.
+template <typename Pack>
+Pack AddGuide(const SwarmGuide& guide, const GuidePlaces& places, std::uint32_t at, Vec3<Pack>* v) {
+  alignas(64) float found[Pack::size][4], columns[4][Pack::size];
+  for (std::size_t lane = 0; lane < Pack::size; ++lane) {
+    const std::size_t k = at + lane;
+    LerpCorners(places.cell[k], places.share[0][k], places.share[1][k], places.share[2][k],
+                found[lane]);
   }
-  const Pack s(speed);
-  v->x += Pack::load_aligned(columns[0]) * s;
-  v->y += Pack::load_aligned(columns[1]) * s;
-  v->z += Pack::load_aligned(columns[2]) * s;
-  return Pack::load_aligned(columns[3]);
+  for (std::size_t lane = 0; lane < Pack::size; ++lane) {
+    for (std::size_t n = 0; n < 4; ++n) columns[n][lane] = found[lane][n];
+  }
+  const Pack speed(guide.speed / 127.0f), reach(guide.reach / 127.0f);
+  v->x += Pack::load_aligned(columns[0]) * speed;
+  v->y += Pack::load_aligned(columns[1]) * speed;
+  v->z += Pack::load_aligned(columns[2]) * speed;
+  return Pack::load_aligned(columns[3]) * reach;
+}
+
+template <typename Pack>
+Vec3<Pack> AddNoise(const SwarmJob& job, const Vec3<Pack>& x) {
+  Vec3<Pack> v{Pack(0.0f), Pack(0.0f), Pack(0.0f)};
+  for (int n = 0; n < job.noise_count; ++n) {
+    const SwarmNoise& noise = job.noise[n];
+    const NoiseTerm<Pack> term{Pack(noise.gain), Pack(noise.scale), noise.seed};
+    v += job.curl ? CurlNoise(term, x) : PerlinVelocity(term, x);
+  }
+  return v;
 }
 
 template <typename Pack>
 void SwarmVelocities(const SwarmJob& job, std::uint32_t first, std::uint32_t last) {
+  GuidePlaces places;
+  for (std::uint32_t begin = first; begin < last; begin += kAhead) {
+    const std::uint32_t end = last - begin < kAhead ? last : begin + kAhead;
+    if (job.guide.cells != nullptr) FindPlaces<Pack>(job, begin, end, &places);
+    for (std::uint32_t k = begin; k < end; k += Pack::size) {
+      Vec3<Pack> v =
+          AddNoise<Pack>(job, {Pack::load_unaligned(job.x + k), Pack::load_unaligned(job.y + k),
+                               Pack::load_unaligned(job.z + k)});
+      if (job.guide.cells != nullptr) {
+        AddGuide(job.guide, places, k - begin, &v).store_unaligned(job.distance + k);
+      }
+      v.x.store_unaligned(job.vx + k);
+      v.y.store_unaligned(job.vy + k);
+      v.z.store_unaligned(job.vz + k);
+    }
+  }
+}
+
+template <typename Pack>
+void CellNumbers(const CellJob& job, std::uint32_t first, std::uint32_t last) {
+  using Lane = Lattice<Pack>;
+  const Pack per_cell(job.per_cell), shift(job.shift), far(1073741824.0f);
+  const auto cell = [&](const float* at) {  // beyond `far` all are in one
+    const Pack u = xsimd::floor(Pack::load_unaligned(at) * per_cell - shift);
+    return Lane::Cell(xsimd::min(far, xsimd::max(Pack(-1073741824.0f), u)));
+  };
   for (std::uint32_t k = first; k < last; k += Pack::size) {
-    const Vec3<Pack> x{Pack::load_unaligned(job.x + k), Pack::load_unaligned(job.y + k),
-                       Pack::load_unaligned(job.z + k)};
-    Vec3<Pack> v{Pack(0.0f), Pack(0.0f), Pack(0.0f)};
-    for (int n = 0; n < job.noise_count; ++n) {
-      const SwarmNoise& noise = job.noise[n];
-      const NoiseTerm<Pack> term{Pack(noise.gain), Pack(noise.scale), noise.seed};
-      v += job.curl ? CurlNoise(term, x) : PerlinVelocity(term, x);
-    }
-    if (job.grid.nodes != nullptr) {
-      AddGuide(job.grid, job.speed, x, &v).store_unaligned(job.distance + k);
-    }
-    v.x.store_unaligned(job.vx + k);
-    v.y.store_unaligned(job.vy + k);
-    v.z.store_unaligned(job.vz + k);
+    const auto number = cell(job.x + k) + cell(job.y + k) * typename Lane::Bits(job.across_y) +
+                        cell(job.z + k) * typename Lane::Bits(job.across_z);
+    number.store_unaligned(job.cell + k);
   }
 }
 

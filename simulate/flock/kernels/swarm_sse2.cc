@@ -3,8 +3,8 @@
 
 #include <emmintrin.h>
 
-#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <xsimd/xsimd.hpp>
 
 namespace flocklift {
@@ -14,17 +14,29 @@ __m128 LerpFour(__m128 a, __m128 b, __m128 t) {
   return _mm_add_ps(a, _mm_mul_ps(t, _mm_sub_ps(b, a)));
 }
 
-void LerpNodes(const float* node, std::size_t row, std::size_t plane, float u, float v, float w,
-               float* out) {
+void LerpCorners(const std::int8_t* cell, float u, float v, float w, float* four) {
   const __m128 tz = _mm_set1_ps(w), ty = _mm_set1_ps(v);
-  const auto along_zy = [&](const float* at) {
-    const auto along_z = [&](const float* p) {
-      return LerpFour(_mm_loadu_ps(p), _mm_loadu_ps(p + plane), tz);
-    };
-    return LerpFour(along_z(at), along_z(at + row), ty);
+  // Sixteen bytes are two rows of two corners; a byte's sign is kept by moving it down from the
+  // top.
+  const __m128i low = _mm_loadu_si128(reinterpret_cast<const __m128i*>(cell));
+  const __m128i high = _mm_loadu_si128(reinterpret_cast<const __m128i*>(cell + 16));
+  const auto widen = [](__m128i words) { return _mm_cvtepi32_ps(_mm_srai_epi32(words, 24)); };
+  const auto rows = [&](auto unpack_bytes) {
+    const __m128i zero = _mm_setzero_si128();
+    const __m128i a = unpack_bytes(zero, low), b = unpack_bytes(zero, high);
+    const __m128 first =
+        LerpFour(widen(_mm_unpacklo_epi16(zero, a)), widen(_mm_unpacklo_epi16(zero, b)), tz);
+    const __m128 second =
+        LerpFour(widen(_mm_unpackhi_epi16(zero, a)), widen(_mm_unpackhi_epi16(zero, b)), tz);
+    return std::pair(first, second);
   };
-  _mm_storeu_ps(out, LerpFour(along_zy(node), along_zy(node + 4), _mm_set1_ps(u)));
+  const auto near = rows([](__m128i a, __m128i b) { return _mm_unpacklo_epi8(a, b); });
+  const auto far = rows([](__m128i a, __m128i b) { return _mm_unpackhi_epi8(a, b); });
+  _mm_storeu_ps(four, LerpFour(LerpFour(near.first, far.first, ty),
+                               LerpFour(near.second, far.second, ty), _mm_set1_ps(u)));
 }
+
+void Prefetch(const void* at) { _mm_prefetch(static_cast<const char*>(at), _MM_HINT_T0); }
 
 }  // namespace
 }  // namespace flocklift
@@ -35,6 +47,10 @@ namespace flocklift {
 
 void SwarmKernelSse2(const SwarmJob& job, std::uint32_t first, std::uint32_t last) {
   SwarmVelocities<xsimd::batch<float, xsimd::sse2>>(job, first, last);
+}
+
+void CellKernelSse2(const CellJob& job, std::uint32_t first, std::uint32_t last) {
+  CellNumbers<xsimd::batch<float, xsimd::sse2>>(job, first, last);
 }
 
 }  // namespace flocklift

@@ -18,7 +18,7 @@
 namespace flocklift {
 namespace {
 
-constexpr int kNx = 120, kNy = 50, kNz = 55;  // nodes, one a metre
+constexpr int kNx = 120, kNy = 50, kNz = 55;  // cells, one a metre
 
 struct Swarm {
   std::vector<float> x, y, z, vx, vy, vz, distance;
@@ -47,20 +47,12 @@ void CountAgents(benchmark::State& state) {
 void Velocities(benchmark::State& state, SwarmKernel kernel, bool guided) {
   const auto animals = static_cast<std::size_t>(state.range(0));
   Swarm s = Uniform(animals);
-  std::vector<float> nodes(guided ? 4 * kNx * kNy * kNz : 0, 0.5F);
+  std::vector<std::int8_t> cells(
+      guided ? static_cast<std::size_t>(kGuideCellBytes) * kNx * kNy * kNz : 0, 60);
   const SwarmNoise noise{1.0F, 0.6F, 3};
-  const SwarmJob job{s.x.data(),
-                     s.y.data(),
-                     s.z.data(),
-                     &noise,
-                     1,
-                     true,
-                     SwarmGrid{guided ? nodes.data() : nullptr, 0, 0, 0, 1, kNx, kNy, kNz},
-                     8.0F,
-                     s.vx.data(),
-                     s.vy.data(),
-                     s.vz.data(),
-                     s.distance.data()};
+  const SwarmGuide guide{guided ? cells.data() : nullptr, 0, 0, 0, 1, kNx, kNy, kNz, 8, 4};
+  const SwarmJob job{s.x.data(),  s.y.data(),  s.z.data(),  &noise,           1, true, guide,
+                     s.vx.data(), s.vy.data(), s.vz.data(), s.distance.data()};
   for (auto _ : state) {
     kernel(job, 0, static_cast<std::uint32_t>(animals));
     benchmark::ClobberMemory();

@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "simulate/core/rng.h"
 #include "simulate/flock/swarm_velocity.h"
+#include "tests/simulate/forces/scalars.h"
 
 namespace flocklift {
 namespace {
@@ -33,18 +35,18 @@ Animals MakeAnimals() {
   return animals;
 }
 
-struct Nodes {
-  std::vector<float> numbers;
-  SwarmGrid grid{};
+struct Cells {
+  std::vector<std::int8_t> bytes;
+  SwarmGuide guide{};
 };
-Nodes MakeNodes(int nx, int ny, int nz) {
-  Nodes nodes;
+Cells MakeCells(int nx, int ny, int nz) {
+  Cells cells;
   Rng rng(2);
-  for (int k = 0; k < 4 * nx * ny * nz; ++k) {
-    nodes.numbers.push_back(static_cast<float>(rng.Uniform(-1, 1)));
+  for (int k = 0; k < kGuideCellBytes * nx * ny * nz; ++k) {
+    cells.bytes.push_back(static_cast<std::int8_t>(static_cast<int>(rng.Below(255)) - 127));
   }
-  nodes.grid = {nodes.numbers.data(), -5, -4, -2, 2, nx, ny, nz};
-  return nodes;
+  cells.guide = {cells.bytes.data(), -5, -4, -2, 2, nx, ny, nz, 1.5F, 3};
+  return cells;
 }
 
 struct Velocities {
@@ -53,11 +55,11 @@ struct Velocities {
   friend bool operator==(const Velocities&, const Velocities&) = default;
 };
 Velocities RunKernel(SwarmKernel kernel, const Animals& animals,
-                     const std::vector<SwarmNoise>& noise, bool curl, const SwarmGrid& grid) {
+                     const std::vector<SwarmNoise>& noise, bool curl, const SwarmGuide& guide) {
   Velocities v;
   for (auto* column : {&v.x, &v.y, &v.z, &v.distance}) column->resize(kPadded);
   kernel({animals.x.data(), animals.y.data(), animals.z.data(), noise.data(),
-          static_cast<int>(noise.size()), curl, grid, 1.5F, v.x.data(), v.y.data(), v.z.data(),
+          static_cast<int>(noise.size()), curl, guide, v.x.data(), v.y.data(), v.z.data(),
           v.distance.data()},
          0, kAnimals);
   for (auto* column : {&v.x, &v.y, &v.z, &v.distance}) column->resize(kAnimals);
@@ -69,17 +71,17 @@ const std::vector<SwarmNoise> kTwo = {{1.0F, 0.6F, 8}, {0.5F, 0.3F, 0xFFFFFFFFU}
 
 TEST(SwarmKernel, EveryVariantOfThisMachineGivesTheSameBytes) {
   const Animals animals = MakeAnimals();
-  const Nodes nodes = MakeNodes(20, 24, 9), flat = MakeNodes(17, 5, 2);
+  const Cells cells = MakeCells(20, 24, 9), flat = MakeCells(17, 5, 1);
   int variants = 0;
   for (const SwarmKernelVariant& variant : kSwarmKernels) {
     if (!variant.supported()) continue;
     ++variants;
     for (const auto& noise : {std::vector<SwarmNoise>{}, kOne, kTwo}) {
       for (const bool curl : {true, false}) {
-        for (const SwarmGrid& grid : {SwarmGrid{}, nodes.grid, flat.grid}) {
+        for (const SwarmGuide& guide : {SwarmGuide{}, cells.guide, flat.guide}) {
           SCOPED_TRACE(std::string(variant.name));
-          EXPECT_EQ(RunKernel(variant.kernel, animals, noise, curl, grid),
-                    RunKernel(SwarmKernelScalar, animals, noise, curl, grid));
+          EXPECT_EQ(RunKernel(variant.kernel, animals, noise, curl, guide),
+                    RunKernel(SwarmKernelScalar, animals, noise, curl, guide));
         }
       }
     }
@@ -89,8 +91,8 @@ TEST(SwarmKernel, EveryVariantOfThisMachineGivesTheSameBytes) {
 
 TEST(SwarmKernel, IsNoisePlusGuide) {
   const Animals animals = MakeAnimals();
-  const Nodes nodes = MakeNodes(20, 24, 9);
-  const Velocities v = RunKernel(SwarmKernelScalar, animals, kTwo, true, nodes.grid);
+  const Cells cells = MakeCells(20, 24, 9);
+  const Velocities v = RunKernel(SwarmKernelScalar, animals, kTwo, true, cells.guide);
   for (std::size_t k = 0; k < kAnimals; ++k) {
     // A hair within a cell the float and the double may see different cells; noise and guide are
     // continuous.
@@ -101,8 +103,8 @@ TEST(SwarmKernel, IsNoisePlusGuide) {
       expected += CurlNoise(
           NoiseTerm<double>{static_cast<double>(n.gain), static_cast<double>(n.scale), n.seed}, x);
     }
-    const GuideSample<double> guide = SampleGuide<double>(nodes.grid, x);
-    expected += 1.5 * guide.direction;
+    const GuideSample<double> guide = SampleGuide<double>(cells.guide, x);
+    expected += guide.velocity;
     EXPECT_NEAR(static_cast<double>(v.x[k]), expected.x, 2e-4);
     EXPECT_NEAR(static_cast<double>(v.y[k]), expected.y, 2e-4);
     EXPECT_NEAR(static_cast<double>(v.z[k]), expected.z, 2e-4);
@@ -110,30 +112,52 @@ TEST(SwarmKernel, IsNoisePlusGuide) {
   }
 }
 
-TEST(Guide, IsLinearBetweenNodesAndConstantBeyond) {
-  Nodes nodes = MakeNodes(4, 3, 5);
-  const auto number = [](const Vec3d& at, int n) { return 0.3 * at.x - 0.2 * at.y + n * at.z + n; };
-  for (int c = 0; c < 5; ++c) {
-    for (int b = 0; b < 3; ++b) {
-      for (int a = 0; a < 4; ++a) {
-        const Vec3d at{-5 + 0.5 * a, -4 + 0.5 * b, -2 + 0.5 * c};
-        for (int n = 0; n < 4; ++n) {
-          nodes.numbers[static_cast<std::size_t>(4 * ((c * 3 + b) * 4 + a) + n)] =
-              static_cast<float>(number(at, n));
-        }
+TEST(CellKernel, EveryVariantNumbersTheSameCells) {
+  const Animals animals = MakeAnimals();
+  constexpr std::uint32_t kPoints = kAnimals / 8 * 8;
+  for (const float shift : {0.0F, 0.5F}) {
+    std::vector<std::uint32_t> cells(kPoints);
+    for (const SwarmKernelVariant& variant : kSwarmKernels) {
+      if (!variant.supported()) continue;
+      variant.cells({animals.x.data(), animals.y.data(), animals.z.data(), 2.5F, shift, 1000,
+                     1000000, cells.data()},
+                    0, kPoints);
+      for (std::size_t k = 0; k < kPoints; ++k) {
+        const auto cell = [shift](float x) {
+          return static_cast<int>(std::floor(x * 2.5F - shift));
+        };
+        EXPECT_EQ(static_cast<int>(cells[k]),
+                  cell(animals.x[k]) + 1000 * cell(animals.y[k]) + 1000000 * cell(animals.z[k]));
+      }
+    }
+  }
+}
+
+TEST(Guide, IsLinearWithinItsCellsAndConstantBeyond) {
+  Cells cells = MakeCells(3, 2, 4);
+  // Whole numbers at the corners, a metre being two cells.
+  const auto number = [](const Vec3d& at, int n) {
+    return 10 * at.x - 8 * at.y + 6 * n * at.z + n;
+  };
+  for (int cell = 0; cell < 3 * 2 * 4; ++cell) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3d at{-5 + 0.5 * (cell % 3 + corner % 2), -4 + 0.5 * (cell / 3 % 2 + corner / 2 % 2),
+                     -2 + 0.5 * (cell / 6 + corner / 4)};
+      for (int n = 0; n < 4; ++n) {
+        cells.bytes[static_cast<std::size_t>(kGuideCellBytes * cell + 4 * corner + n)] =
+            static_cast<std::int8_t>(number(at, n));
       }
     }
   }
   const auto expect_at = [&](const Vec3d& x, const Vec3d& seen) {
-    const GuideSample<double> guide = SampleGuide<double>(nodes.grid, x);
-    EXPECT_NEAR(guide.direction.x, number(seen, 0), 1e-6);
-    EXPECT_NEAR(guide.direction.y, number(seen, 1), 1e-6);
-    EXPECT_NEAR(guide.direction.z, number(seen, 2), 1e-6);
-    EXPECT_NEAR(guide.distance, number(seen, 3), 1e-6);
+    const GuideSample<double> guide = SampleGuide<double>(cells.guide, x);
+    ExpectNear(guide.velocity, 1.5 / 127 * Vec3d{number(seen, 0), number(seen, 1), number(seen, 2)},
+               1e-6);
+    EXPECT_NEAR(guide.distance, 3.0 / 127 * number(seen, 3), 1e-6);
   };
   expect_at({-4.3, -3.6, -0.1}, {-4.3, -3.6, -0.1});
   expect_at({-5, -4, -2}, {-5, -4, -2});
-  expect_at({-3.5, -3, 0}, {-3.5, -3, 0});     // the last node
+  expect_at({-3.5, -3, 0}, {-3.5, -3, 0});     // the last corner
   expect_at({-9, 100, -0.4}, {-5, -3, -0.4});  // beyond
 }
 
