@@ -11,6 +11,7 @@
 #include "simulate/core/check.h"
 #include "simulate/core/parallel_for.h"
 #include "simulate/flock/herd.h"
+#include "simulate/flock/minimum_distance.h"
 #include "simulate/flock/motion.h"
 #include "simulate/flock/predators.h"
 #include "simulate/flock/streams.h"
@@ -24,6 +25,7 @@ struct Species {
   Swarm swarm;
   Herd<T> herd;
   std::unique_ptr<Motion<T>> motion;
+  std::vector<T> bodies;  // room that the bodies need, in the order of the herd [m]
 };
 
 template <typename T>
@@ -81,6 +83,7 @@ struct BasicEngine<T>::Impl {
   ThreadPool pool;
   Predators predators;
   std::vector<Species<T>> species;
+  MinimumDistance<T> minimum_distance;
   std::uint64_t agents = 0, steps = 0;
   double neighbour_sum = 0, touched_sum = 0;
   std::size_t next_event = 0;
@@ -136,9 +139,29 @@ struct BasicEngine<T>::Impl {
       }
       touched_sum += static_cast<double>(s.motion->touched());
     }
+    KeepDistance();
     predators.Step(world.dt, static_cast<std::uint32_t>(steps),
                    [this](const Vec3d& from) { return NearestAnimal(from); });
     ++steps;
+  }
+
+  // Minimum-distance enforcement for the species that ask for it, all at once.
+  void KeepDistance() {
+    std::vector<Crowd<T>> crowds;
+    for (Species<T>& s : species) {
+      const Room room = s.motion->room();
+      if (room.distance <= 0 && room.bodies <= 0) continue;
+      Bodies<T>& now = s.herd.now;
+      s.bodies.resize(room.bodies > 0 ? s.herd.size() : 0);
+      for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+        s.bodies[k] = static_cast<T>(room.bodies) * s.herd.radius[now.agent[k]];
+      }
+      crowds.push_back({s.herd.size(), now.x.data(), now.y.data(), now.z.data(),
+                        static_cast<T>(room.distance),
+                        room.bodies > 0 ? s.bodies.data() : nullptr});
+    }
+    if (!crowds.empty())
+      touched_sum += static_cast<double>(minimum_distance.Enforce(crowds, &pool));
   }
 
   // The events whose time has come.

@@ -18,7 +18,9 @@ const Registry<ModelParameters>& Known() {
        {"linear", "springs and drag between all pairs, for checking estimators",
         "equations.md, section 2b", LinearParameters<double>{}},
        {"forces", "nothing but the terms that stand below [[species.force]]", "the scene",
-        ForcesParameters{}}});
+        ForcesParameters{}},
+       {"swarm", "curl noise and the cheapest way to the goals, without inertia; insects",
+        "Wang, Jin, Deng, Zhou 2014", SwarmParameters{}}});
   return registry;
 }
 

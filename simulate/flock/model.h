@@ -17,6 +17,7 @@
 #include "simulate/flock/lin_model.h"
 #include "simulate/flock/linear_model.h"
 #include "simulate/flock/registry.h"
+#include "simulate/flock/swarm_model.h"
 
 namespace flocklift {
 
@@ -25,7 +26,7 @@ const std::vector<ModelInfo>& Models();
 const ModelInfo* FindModel(std::string_view name);
 
 using ModelParameters = std::variant<BoidsParameters<double>, LinParameters<double>,
-                                     LinearParameters<double>, ForcesParameters>;
+                                     LinearParameters<double>, ForcesParameters, SwarmParameters>;
 
 // Registry::Resolve and Registry::Complete of the models.
 ModelParameters ResolveModel(const ModelSpec& spec);

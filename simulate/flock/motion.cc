@@ -7,6 +7,7 @@
 #include "simulate/flock/forces_motion.h"
 #include "simulate/flock/lin_motion.h"
 #include "simulate/flock/linear_motion.h"
+#include "simulate/flock/swarm_motion.h"
 
 namespace flocklift {
 namespace {
@@ -22,6 +23,7 @@ struct Make {
   Result operator()(const LinParameters<double>& p) { return MakeLinMotion<T>(p, context); }
   Result operator()(const LinearParameters<double>& p) { return MakeLinearMotion<T>(p, context); }
   Result operator()(const ForcesParameters& p) { return MakeForcesMotion(p, context, *herd); }
+  Result operator()(const SwarmParameters& p) { return MakeSwarmMotion(p, context, *herd); }
 };
 
 }  // namespace

@@ -21,6 +21,13 @@
 
 namespace flocklift {
 
+// How much room the animals of a species keep from all others that keep any: two of them are at
+// least as far from each other as their rooms together say.
+struct Room {
+  double distance = 0;  // half the least distance between two of the species [m]
+  double bodies = 0;    // ... and so many radii of the animal's own body
+};
+
 template <typename T>
 class Motion {
  public:
@@ -38,7 +45,10 @@ class Motion {
   virtual void Save(StateWriter* /*out*/) const {}
   virtual void Load(StateReader* /*in*/) {}
 
-  // Animals that minimum-distance enforcement moved at the last step.
+  // Minimum-distance enforcement after the step, across species; the engine does it. None: zeros.
+  virtual Room room() const { return {}; }
+
+  // Animals that a minimum-distance enforcement of the motion's own moved at the last step.
   virtual std::int64_t touched() const { return 0; }
 };
 

@@ -20,7 +20,8 @@ enum class Stream : std::uint64_t {
   kPredator = 4,
   kFlock = 5,
   kForceNoise = 6,
-  kWind = 7
+  kWind = 7,
+  kKick = 8
 };
 
 inline Rng StreamOf(Stream purpose, std::uint64_t seed, std::uint64_t agent,
