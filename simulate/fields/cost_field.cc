@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "simulate/core/check.h"
 #include "simulate/core/parallel_for.h"
+#include "simulate/fields/goal_nodes.h"
 
 namespace flocklift {
 namespace {
@@ -18,27 +18,6 @@ constexpr std::int64_t kNodesAtOnce = 8192;
 
 // Where the corners' directions add up to less than this, they say too little [1].
 constexpr double kUndecided = 0.05;
-
-// A node by its place along the axes, for walks to its neighbours.
-struct Place {
-  int i, j, k;
-
-  Place(const Grid& g, std::size_t node)
-      : i(static_cast<int>(node % g.nx)),
-        j(static_cast<int>(node / g.nx % g.ny)),
-        k(static_cast<int>(node / g.nx / g.ny)) {}
-
-  // Calls fn(node) for those of the six neighbours that there are.
-  template <typename Function>
-  void ForEachNeighbour(const Grid& g, const Function& fn) const {
-    if (i > 0) fn(g.Index(i - 1, j, k));
-    if (i + 1 < g.nx) fn(g.Index(i + 1, j, k));
-    if (j > 0) fn(g.Index(i, j - 1, k));
-    if (j + 1 < g.ny) fn(g.Index(i, j + 1, k));
-    if (k > 0) fn(g.Index(i, j, k - 1));
-    if (k + 1 < g.nz) fn(g.Index(i, j, k + 1));
-  }
-};
 
 }  // namespace
 
@@ -92,36 +71,11 @@ void CostField::SetSeeds() {
   const Grid& g = grid();
   std::vector<Eikonal::Seed> seeds;
   for (const Solid& goal : goals_) {
-    const std::size_t before = seeds.size();
-    const auto [low, high] = Bounds(goal);
-    const Place from(g, g.Nearest(low)), to(g, g.Nearest(high));
-    for (int k = from.k; k <= to.k; ++k) {
-      for (int j = from.j; j <= to.j; ++j) {
-        for (int i = from.i; i <= to.i; ++i) {
-          const std::size_t node = g.Index(i, j, k);
-          if (eikonal_.IsWall(node) || SignedDistance(goal, g.Node(i, j, k)) > 0) continue;
-          seeds.push_back({node, 0});
-        }
-      }
-    }
-    if (seeds.size() == before) {
-      double nearest = std::numeric_limits<double>::infinity();
-      std::size_t best = 0;
-      for (std::size_t node = 0; node < g.size(); ++node) {
-        if (eikonal_.IsWall(node)) continue;
-        const double distance = SignedDistance(goal, g.Node(node));
-        if (distance >= nearest) continue;
-        nearest = distance;
-        best = node;
-      }
-      Check(std::isfinite(nearest), "the obstacles leave no room for a goal");
-      seeds.push_back({best, 0});
-      continue;
-    }
-    // A node beside the goal is nearer to it than to the goal's node.
-    const std::size_t inside = seeds.size();
-    for (std::size_t s = before; s < inside; ++s) {
-      Place(g, seeds[s].node).ForEachNeighbour(g, [&](std::size_t node) {
+    for (const std::size_t inside : GoalNodes(distance_, goal)) {
+      seeds.push_back({inside, 0});
+      if (SignedDistance(goal, g.Node(inside)) > 0) continue;  // only the nearest
+      // A node beside the goal is nearer to it than to the goal's node.
+      g.ForEachNeighbour(inside, [&](int /*side*/, std::size_t node) {
         const double distance = SignedDistance(goal, g.Node(node));
         if (eikonal_.IsWall(node) || distance <= 0) return;
         seeds.push_back(
@@ -144,7 +98,7 @@ void CostField::Solve() {
   }
   for (const std::size_t node : eikonal_.changed()) {
     Guide(node);
-    Place(g, node).ForEachNeighbour(g, [this](std::size_t other) { Guide(other); });
+    g.ForEachNeighbour(node, [this](int /*side*/, std::size_t other) { Guide(other); });
   }
 }
 

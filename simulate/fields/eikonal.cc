@@ -90,58 +90,25 @@ float Eikonal::Update(std::size_t padded) const {
                                         std::min(at[-slice], at[slice]), step));
 }
 
-// A heap of four children each: shallower than one of two, and the children share a cache line.
-void Eikonal::Push(float value, std::uint32_t node) {
-  std::size_t at = heap_.size();
-  heap_.push_back({value, node});
-  while (at > 0) {
-    const std::size_t parent = (at - 1) / 4;
-    if (!(value < heap_[parent].value)) break;
-    heap_[at] = heap_[parent];
-    at = parent;
-  }
-  heap_[at] = {value, node};
-}
-
-Eikonal::Entry Eikonal::Pop() {
-  const Entry top = heap_.front(), last = heap_.back();
-  heap_.pop_back();
-  const std::size_t size = heap_.size();
-  if (size == 0) return top;
-  std::size_t at = 0;
-  for (std::size_t child; (child = 4 * at + 1) < size;) {
-    const std::size_t end = std::min(child + 4, size);
-    std::size_t least = child;
-    for (++child; child < end; ++child) {
-      if (heap_[child].value < heap_[least].value) least = child;
-    }
-    if (!(heap_[least].value < last.value)) break;
-    heap_[at] = heap_[least];
-    at = least;
-  }
-  heap_[at] = last;
-  return top;
-}
-
 // Makes infinite what stood on something that is gone, in the order of C, so that a node is judged
 // when all it stands on has been. False when that is too much of the grid.
 bool Eikonal::Raise() {
-  heap_.clear();
+  heap_.Clear();
   raised_.clear();
   for (const std::uint32_t node : edited_) {
-    if (value_[node] != kInfinite) Push(value_[node], node);
+    if (value_[node] != kInfinite) heap_.Push(value_[node], node);
   }
-  while (!heap_.empty()) {
-    const Entry entry = Pop();
+  while (!heap_.Empty()) {
+    const internal::CostHeap::Entry entry = heap_.Pop();
     const std::uint32_t node = entry.node;
-    if (entry.value != value_[node] || !(Update(node) > entry.value)) continue;
+    if (entry.cost != value_[node] || !(Update(node) > entry.cost)) continue;
     value_[node] = kInfinite;
     raised_.push_back(node);
     if (raised_.size() > free_ / kLocalShare) return false;
     for (const std::ptrdiff_t offset : offsets_) {
       const auto other = static_cast<std::uint32_t>(node + offset);
       const float value = value_[other];
-      if (value > entry.value && value != kInfinite) Push(value, other);
+      if (value > entry.cost && value != kInfinite) heap_.Push(value, other);
     }
   }
   return true;
@@ -150,16 +117,16 @@ bool Eikonal::Raise() {
 // Spreads from the nodes in the heap until every node's equation holds. A node can change more than
 // once (its neighbour may have been provisional); the heap's older entries are then passed over.
 void Eikonal::March(bool note_changes) {
-  while (!heap_.empty()) {
-    const Entry entry = Pop();
-    if (entry.value != value_[entry.node]) continue;
+  while (!heap_.Empty()) {
+    const internal::CostHeap::Entry entry = heap_.Pop();
+    if (entry.cost != value_[entry.node]) continue;
     for (const std::ptrdiff_t offset : offsets_) {
       const auto other = static_cast<std::uint32_t>(entry.node + offset);
-      if (!(value_[other] > entry.value)) continue;  // does not depend on this node
+      if (!(value_[other] > entry.cost)) continue;  // does not depend on this node
       const float value = Update(other);
       if (value == value_[other]) continue;
       value_[other] = value;
-      Push(value, other);
+      heap_.Push(value, other);
       if (note_changes) changed_.push_back(Unpadded(other));
     }
   }
@@ -167,11 +134,11 @@ void Eikonal::March(bool note_changes) {
 
 void Eikonal::SolveAll() {
   std::fill(value_.begin(), value_.end(), kInfinite);
-  heap_.clear();
+  heap_.Clear();
   for (const std::uint32_t node : seeded_) {
     if (step_[node] == kInfinite || value_[node] == seed_[node]) continue;
     value_[node] = seed_[node];
-    Push(seed_[node], node);
+    heap_.Push(seed_[node], node);
   }
   March(false);
 }
@@ -188,7 +155,7 @@ void Eikonal::Solve() {
       const float value = Update(node);
       if (value == value_[node]) continue;
       value_[node] = value;
-      Push(value, node);
+      heap_.Push(value, node);
       changed_.push_back(Unpadded(node));
     }
     March(true);

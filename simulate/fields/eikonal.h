@@ -20,6 +20,7 @@
 #include <span>
 #include <vector>
 
+#include "simulate/fields/cost_heap.h"
 #include "simulate/fields/grid_field.h"
 
 namespace flocklift {
@@ -55,10 +56,6 @@ class Eikonal {
   const std::vector<std::size_t>& changed() const { return changed_; }
 
  private:
-  struct Entry {
-    float value;
-    std::uint32_t node;  // padded
-  };
   // One layer of walls all around saves the tests at the rim.
   std::size_t Padded(std::size_t node) const {
     const std::size_t row = node / grid_.nx;
@@ -70,8 +67,6 @@ class Eikonal {
                        static_cast<int>(padded / slice_) - 1);
   }
   float Update(std::size_t padded) const;
-  void Push(float value, std::uint32_t node);
-  Entry Pop();
   bool Raise();
   void March(bool note_changes);
   void SolveAll();
@@ -83,7 +78,7 @@ class Eikonal {
   std::vector<std::uint32_t> seeded_;       // padded nodes that have a seed
   std::vector<std::uint32_t> edited_;       // whose equation changed since the last Solve
   std::vector<std::uint32_t> raised_;
-  std::vector<Entry> heap_;
+  internal::CostHeap heap_;
   std::vector<std::size_t> changed_;
   bool solved_all_ = true, fresh_ = true;
 };

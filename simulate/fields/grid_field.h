@@ -18,6 +18,11 @@
 
 namespace flocklift {
 
+// A node by its number along each axis.
+struct GridPlace {
+  int i = 0, j = 0, k = 0;
+};
+
 // Where the nodes are. One node along an axis makes a flat field.
 struct Grid {
   Vec3d low;                   // of node (0, 0, 0) [m]
@@ -32,14 +37,31 @@ struct Grid {
   Vec3d Node(int i, int j, int k) const {
     return low + Vec3d{i * spacing, j * spacing, k * spacing};
   }
-  Vec3d Node(std::size_t index) const {
+  GridPlace Place(std::size_t index) const {
     const std::size_t row = index / nx;
-    return Node(static_cast<int>(index % nx), static_cast<int>(row % ny),
-                static_cast<int>(row / ny));
+    return {static_cast<int>(index % nx), static_cast<int>(row % ny), static_cast<int>(row / ny)};
+  }
+  Vec3d Node(std::size_t index) const {
+    const GridPlace at = Place(index);
+    return Node(at.i, at.j, at.k);
   }
   Vec3d High() const { return Node(nx - 1, ny - 1, nz - 1); }
   // Index of the node nearest to a point (to its nearest point of the grid).
   std::size_t Nearest(const Vec3d& p) const;
+
+  // Calls fn(side, neighbour) for those of the six neighbours that there are; sides 0 .. 5 are
+  // before and after along x, then y, z.
+  template <typename Function>
+  void ForEachNeighbour(std::size_t node, const Function& fn) const {
+    const GridPlace at = Place(node);
+    const std::size_t row = nx, slice = row * ny;
+    if (at.i > 0) fn(0, node - 1);
+    if (at.i + 1 < nx) fn(1, node + 1);
+    if (at.j > 0) fn(2, node - row);
+    if (at.j + 1 < ny) fn(3, node + row);
+    if (at.k > 0) fn(4, node - slice);
+    if (at.k + 1 < nz) fn(5, node + slice);
+  }
 
   friend bool operator==(const Grid&, const Grid&) = default;
 };

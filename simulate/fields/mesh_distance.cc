@@ -15,7 +15,7 @@
 namespace flocklift {
 namespace {
 
-constexpr std::uint32_t kLeafTriangles = 4;
+constexpr std::uint32_t kLeafTriangles = 3;
 constexpr int kDeepest = 64;  // of the tree, which halves its triangles at every level
 
 double Axis(const Vec3d& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
