@@ -17,6 +17,12 @@ constexpr T select(bool mask, const T& if_true, const T& if_false) {
   return mask ? if_true : if_false;
 }
 
+// `value` where the mask holds, 0 elsewhere; kernels bring a cheaper one for their packs.
+template <typename Mask, typename T>
+constexpr T Where(const Mask& mask, const T& value) {
+  return select(mask, value, T(0.0));
+}
+
 // A point or direction of the image [px].
 template <typename T>
 struct Vec2 {

@@ -40,25 +40,29 @@ T SoftStep(const T& x, const T& taper) {
 }
 template <typename T>
 T SoftStep(const T& x, HardEdge /*taper*/) {
-  return select(x > T(0.0), T(1.0), T(0.0));
+  return Where(x > T(0.0), T(1.0));
 }
 
 // [r < radius] of a squared distance r^2 [m^2].
 template <typename T>
 T TaperWindow(const T& squared_distance, const T& radius, const T& taper) {
-  const T hard = select(squared_distance < radius * radius, T(1.0), T(0.0));
+  const T hard = Where(squared_distance < radius * radius, T(1.0));
   return select(taper > T(0.0), SoftStep(radius - SoftLength(squared_distance), taper), hard);
 }
 template <typename T>
 T TaperWindow(const T& squared_distance, const T& radius, HardEdge /*taper*/) {
-  return select(squared_distance < radius * radius, T(1.0), T(0.0));
+  return Where(squared_distance < radius * radius, T(1.0));
 }
 
 // [r <= radius]: as TaperWindow, but a hard edge belongs to the inside.
 template <typename T>
 T ClosedTaperWindow(const T& squared_distance, const T& radius, const T& taper) {
-  const T hard = select(squared_distance > radius * radius, T(0.0), T(1.0));
+  const T hard = Where(squared_distance <= radius * radius, T(1.0));
   return select(taper > T(0.0), SoftStep(radius - SoftLength(squared_distance), taper), hard);
+}
+template <typename T>
+T ClosedTaperWindow(const T& squared_distance, const T& radius, HardEdge /*taper*/) {
+  return Where(squared_distance <= radius * radius, T(1.0));
 }
 
 // The larger of two, rounded where they differ by less than `taper`: max(a, b) + h^2 taper / 4,

@@ -12,8 +12,10 @@
 #include "simulate/forces/flee.h"
 #include "simulate/forces/lin.h"
 #include "simulate/forces/linear.h"
+#include "simulate/forces/opensteer.h"
 #include "simulate/forces/separation.h"
 #include "simulate/forces/speed.h"
+#include "simulate/forces/zones.h"
 #include "tests/simulate/forces/scalars.h"
 #include "tests/support/gradient_check.h"
 
@@ -35,6 +37,12 @@ static_assert(PairTermOfEveryScalar<LinSeparation>);
 static_assert(PairTermOfEveryScalar<LinCohesion>);
 static_assert(PairTermOfEveryScalar<LinearCohesion>);
 static_assert(PairTermOfEveryScalar<LinearAlignment>);
+static_assert(PairTermOfEveryScalar<RepulsionZone>);
+static_assert(PairTermOfEveryScalar<AlignmentZone>);
+static_assert(PairTermOfEveryScalar<AttractionZone>);
+static_assert(PairTermOfEveryScalar<SteerSeparation>);
+static_assert(PairTermOfEveryScalar<SteerAlignment>);
+static_assert(PairTermOfEveryScalar<SteerCohesion>);
 static_assert(AgentTermOfEveryScalar<Boundary>);
 static_assert(AgentTermOfEveryScalar<CruiseSpeed>);
 static_assert(AgentTermOfEveryScalar<Attraction>);
