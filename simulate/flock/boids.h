@@ -11,7 +11,9 @@
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_BOIDS_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_BOIDS_H_
 
+#include <cmath>
 #include <string_view>
+#include <type_traits>
 
 #include "simulate/core/options.h"
 #include "simulate/forces/alignment.h"
@@ -20,6 +22,7 @@
 #include "simulate/forces/level.h"
 #include "simulate/forces/separation.h"
 #include "simulate/forces/speed.h"
+#include "simulate/forces/view.h"
 
 namespace flocklift {
 
@@ -34,6 +37,8 @@ struct BoidsParameters {
   T s_min{6.0}, s_max{14.0};
   T taper{0.0}, wall_taper{6.0};
   T cruise{1.2}, level{0.5};
+  T blind{0.0}, blind_taper{0.0};
+  T nearest{0.0};
   T goal_range{15.0};
   T noise{2.5}, noise_time{0.8}, noise_scale{10.0};
   T time_unit{1.0};
@@ -60,6 +65,12 @@ void Describe(Visitor& visit, BoidsParameters<T>& p) {
   visit("cruise", p.cruise, {.low = 0}, "1/s",
         "rate at which each animal returns to its own cruising speed");
   visit("level", p.level, {.low = 0}, "1/s", "damping of climbing and sinking");
+  visit("blind", p.blind, {.low = 0, .high = 6.283185307179586}, "rad",
+        "angle behind an animal in which it sees no neighbours");
+  visit("blind_taper", p.blind_taper, {.low = 0, .high = 2}, "",
+        "width of that angle's edge, in its cosine; 0: hard");
+  visit("nearest", p.nearest, {.low = 0, .high = 1000}, "",
+        "neighbours are that many nearest animals instead of those within d_v; 0: within d_v");
   visit("goal_range", p.goal_range, {.low = 1e-6}, "m",
         "an attraction point pulls as a spring nearer than this, constantly beyond");
   visit("noise_kind", p.noise_kind, {}, "",
@@ -86,6 +97,9 @@ inline BoidsParameters<double> AssignmentParameters() {
           .wall_taper = 0,
           .cruise = 0,
           .level = 0,
+          .blind = 0,
+          .blind_taper = 0,
+          .nearest = 0,
           .goal_range = 1e6,
           .noise = 0,
           .noise_time = 0,
@@ -104,12 +118,14 @@ BoidsParameters<T> InSeconds(BoidsParameters<T> p) {
   return p;
 }
 
-// What neighbours do; Taper is T, or HardEdge.
-template <typename T, typename Taper = T>
+// What neighbours do. Taper is T or HardEdge; View is AllRound, or the ViewCone<T, Taper> in which
+// an animal has neighbours at all.
+template <typename T, typename Taper = T, typename View = AllRound>
 struct BoidsPairs {
   typename Separation::Params<T, Taper> separation;
   typename Cohesion::Params<T, Taper> cohesion;
   typename Alignment::Params<T, Taper> alignment;
+  View view{};
 
   struct Shares {
     Share<T> separation, cohesion, alignment;
@@ -117,16 +133,38 @@ struct BoidsPairs {
   struct Sums {
     Weighted<T> separation, cohesion, alignment;
 
+    // Calls add(&sum, share) for each rule.
+    template <typename Add>
+    void Each(const Shares& shares, const Add& add) {
+      add(&separation, shares.separation);
+      add(&cohesion, shares.cohesion);
+      add(&alignment, shares.alignment);
+    }
     Sums& operator+=(const Shares& shares) {
       separation += shares.separation;
       cohesion += shares.cohesion;
       alignment += shares.alignment;
       return *this;
     }
+    T Neighbours() const { return cohesion.weight; }
   };
+
+  // The rules of an animal of velocity v.
+  BoidsPairs For(const Vec3<T>& v) const {
+    BoidsPairs own = *this;
+    if constexpr (!std::is_same_v<View, AllRound>) own.view.heading = SoftUnit(v);
+    return own;
+  }
   Shares Pair(const Vec3<T>& dx, const Vec3<T>& dv) const {
-    return {Separation::Pair(separation, dx, dv), Cohesion::Pair(cohesion, dx, dv),
-            Alignment::Pair(alignment, dx, dv)};
+    Shares shares{Separation::Pair(separation, dx, dv), Cohesion::Pair(cohesion, dx, dv),
+                  Alignment::Pair(alignment, dx, dv)};
+    if constexpr (!std::is_same_v<View, AllRound>) {
+      const T seen = Seen(view, dx);
+      for (Share<T>* share : {&shares.separation, &shares.cohesion, &shares.alignment}) {
+        share->weight *= seen;
+      }
+    }
+    return shares;
   }
   Vec3<T> Finish(const Sums& sums) const {
     return Separation::Finish(separation, sums.separation) +
@@ -135,12 +173,17 @@ struct BoidsPairs {
 };
 
 // Parameters in seconds, of scalar S, to the pair terms of scalar T.
-template <typename T, typename Taper = T, typename S>
-BoidsPairs<T, Taper> MakeBoidsPairs(const BoidsParameters<S>& p, Taper taper) {
+template <typename T, typename Taper = T, typename View = AllRound, typename S>
+BoidsPairs<T, Taper, View> MakeBoidsPairs(const BoidsParameters<S>& p, Taper taper,
+                                          const View& view = {}) {
   return {{T(p.alpha_s), T(p.d_s), taper},
           {T(p.alpha_c), T(p.d_v), taper},
-          {T(p.alpha_a), T(p.d_v), taper}};
+          {T(p.alpha_a), T(p.d_v), taper},
+          view};
 }
+
+// Cosine of the half angle that is seen around a blind angle behind [rad].
+inline double SightCosine(double blind) { return -std::cos(0.5 * blind); }
 
 // How far a neighbour can be felt [m].
 inline double Reach(const BoidsParameters<double>& p) {

@@ -11,73 +11,11 @@
 #include "simulate/flock/correlated_noise.h"
 #include "simulate/flock/force_passes.h"
 #include "simulate/flock/integrator.h"
-#include "simulate/flock/kernels/boids_kernel.h"
+#include "simulate/flock/pair_forces.h"
 #include "simulate/flock/surroundings_forces.h"
 
 namespace flocklift {
 namespace {
-
-// The kernel's work, one pair at a time.
-template <typename T>
-void BoidsPairsScalar(const BoidsParameters<double>& p, std::int64_t first_row,
-                      std::int64_t last_row, Herd<T>* herd) {
-  const auto run = [&](const auto& pairs) {
-    using Pairs = std::remove_cvref_t<decltype(pairs)>;
-    const Bodies<T>& s = herd->now;
-    ForEachInRows(*herd, first_row, last_row, [&](std::uint32_t k, const auto& for_neighbours) {
-      typename Pairs::Sums sums;
-      for_neighbours([&](std::uint32_t j) {
-        sums += pairs.Pair(s.Position(j) - s.Position(k), s.Velocity(j) - s.Velocity(k));
-      });
-      herd->SetAcceleration(k, pairs.Finish(sums));
-      herd->neighbours[k] = sums.cohesion.weight;
-    });
-  };
-  if (p.taper > 0) {
-    run(MakeBoidsPairs<T>(p, static_cast<T>(p.taper)));
-  } else {
-    run(MakeBoidsPairs<T>(p, HardEdge{}));
-  }
-}
-
-BoidsJob MakeJob(const BoidsParameters<double>& p, Herd<float>* herd) {
-  const CellGrid<float>::View g = herd->grid.view();
-  const Bodies<float>& s = herd->now;
-  const auto f = [](double value) { return static_cast<float>(value); };
-  return {.start = g.start,
-          .low_x = g.low_x,
-          .inverse_edge = g.inverse_edge,
-          .nx = g.nx,
-          .ny = g.ny,
-          .nz = g.nz,
-          .x = s.x.data(),
-          .y = s.y.data(),
-          .z = s.z.data(),
-          .vx = s.vx.data(),
-          .vy = s.vy.data(),
-          .vz = s.vz.data(),
-          .d_s = f(p.d_s),
-          .d_v = f(p.d_v),
-          .alpha_s = f(p.alpha_s),
-          .alpha_c = f(p.alpha_c),
-          .alpha_a = f(p.alpha_a),
-          .taper = f(p.taper),
-          .reach = f(1.0001 * Reach(p)),
-          .ax = herd->ax.data(),
-          .ay = herd->ay.data(),
-          .az = herd->az.data(),
-          .neighbours = herd->neighbours.data()};
-}
-
-const BoidsKernelVariant* ChooseKernel(const std::string& name) {
-  if (name == "scalar") return nullptr;
-  const BoidsKernelVariant* best = nullptr;
-  for (const BoidsKernelVariant& variant : kBoidsKernels) {
-    if (variant.supported() && (name.empty() || name == variant.name)) best = &variant;
-  }
-  Check(best != nullptr, "this machine has no kernel `" + name + "`");
-  return best;
-}
 
 template <typename T>
 class BoidsMotion final : public Motion<T> {
@@ -89,7 +27,7 @@ class BoidsMotion final : public Motion<T> {
         noise_(Stream::kNoise, herd.size()) {}
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
-    herd->SortBy(std::max(Reach(p_), forces_.Reach()));
+    herd->SortBy(std::max(Reach(p_), forces_.Reach()), pool);
     AddPairs(pool, herd);
     forces_.Add(around, pool, herd);
     pool->For(0, static_cast<std::int64_t>(herd->size()), kAgentGrain,
@@ -109,21 +47,13 @@ class BoidsMotion final : public Motion<T> {
 
  private:
   void AddPairs(ThreadPool* pool, Herd<T>* herd) const {
-    const int rows = herd->grid.view().RowCount();
-    if constexpr (std::is_same_v<T, float>) {
-      if (kernel_ != nullptr) {
-        const BoidsJob job = MakeJob(p_, herd);
-        pool->For(0, rows, kRowGrain, [&](std::int64_t first, std::int64_t last) {
-          thread_local std::vector<std::uint32_t> candidates;
-          candidates.resize(std::max(candidates.size(), herd->size() + 32));
-          kernel_->kernel(job, static_cast<int>(first), static_cast<int>(last), candidates.data());
-        });
-        return;
-      }
+    NeighbourLists nearest;
+    PairTask<T> task = TaskOf(herd);
+    if (p_.nearest > 0) {
+      nearest = FindNearest(herd->now, static_cast<int>(p_.nearest), pool);
+      task.nearest = &nearest;
     }
-    pool->For(0, rows, kRowGrain, [&](std::int64_t first, std::int64_t last) {
-      BoidsPairsScalar(p_, first, last, herd);
-    });
+    SumPairs<T>(p_, kernel_, task, pool);
   }
 
   void Move(const Surroundings& around, std::int64_t first, std::int64_t last, Herd<T>* herd) {
@@ -172,8 +102,8 @@ class BoidsMotion final : public Motion<T> {
     return kind == NoiseKind::kCurl ? CurlNoise(field, x) : PerlinVelocity(field, x);
   }
 
-  BoidsParameters<double> p_;         // in seconds
-  const BoidsKernelVariant* kernel_;  // null: scalar
+  BoidsParameters<double> p_;    // in seconds
+  const KernelVariant* kernel_;  // null: scalar
   ForcePasses<T> forces_;
   CorrelatedNoise<T> noise_;
 };

@@ -14,38 +14,76 @@ namespace {
 constexpr int kMaxCellsPerAxis = 1024;
 constexpr double kMargin = 1.001;
 
-// Least value and width of a column, n >= 1. Eight at a time, so that it runs on packs. Throws
-// std::runtime_error when a value is not finite.
+constexpr std::size_t kLeastChunk = 2048;  // animals, below which a thread is not worth its start
+
 template <typename T>
-double Span(const std::vector<T>& column, std::size_t n, T* least) {
+struct Extent {
+  T low, high;
+};
+
+// Least and greatest value of a column from first to last, first < last. Eight at a time, so that
+// it runs on packs. Throws std::runtime_error when a value is not finite.
+template <typename T>
+Extent<T> ExtentOf(const std::vector<T>& column, std::size_t first, std::size_t last) {
   constexpr std::size_t kLanes = 8;
   T low[kLanes], high[kLanes], zero[kLanes];
-  std::fill_n(low, kLanes, column[0]);
-  std::fill_n(high, kLanes, column[0]);
+  std::fill_n(low, kLanes, column[first]);
+  std::fill_n(high, kLanes, column[first]);
   std::fill_n(zero, kLanes, T(0));
   const auto take = [&](std::size_t lane, T value) {
     low[lane] = value < low[lane] ? value : low[lane];
     high[lane] = value > high[lane] ? value : high[lane];
     zero[lane] += value - value;  // 0, unless it is not finite
   };
-  std::size_t k = 0;
-  for (; k + kLanes <= n; k += kLanes) {
+  std::size_t k = first;
+  for (; k + kLanes <= last; k += kLanes) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) take(lane, column[k + lane]);
   }
-  for (; k < n; ++k) take(0, column[k]);
+  for (; k < last; ++k) take(0, column[k]);
   if (!std::all_of(zero, zero + kLanes, [](T value) { return value == T(0); })) {
     throw std::runtime_error(
         "the simulation diverged (a position is not finite): take more substeps or smaller "
         "weights");
   }
-  *least = *std::min_element(low, low + kLanes);
-  return static_cast<double>(*std::max_element(high, high + kLanes)) - static_cast<double>(*least);
+  return {*std::min_element(low, low + kLanes), *std::max_element(high, high + kLanes)};
+}
+
+// n animals in equal shares for `count` threads.
+struct Shares {
+  std::size_t n;
+  int count;
+
+  std::size_t First(int k) const {
+    return n * static_cast<std::size_t>(k) / static_cast<std::size_t>(count);
+  }
+  // Calls fn(k, first, last) for each share.
+  template <typename Function>
+  void ForEach(ThreadPool* pool, const Function& fn) const {
+    const auto run = [&](std::int64_t k, std::int64_t) {
+      fn(static_cast<std::size_t>(k), First(static_cast<int>(k)), First(static_cast<int>(k) + 1));
+    };
+    if (count == 1) return run(0, 1);
+    pool->For(0, count, 1, run);
+  }
+};
+
+template <typename T>
+Extent<T> ExtentOf(const std::vector<T>& column, const Shares& shares, ThreadPool* pool) {
+  std::vector<Extent<T>> of(static_cast<std::size_t>(shares.count));
+  shares.ForEach(pool, [&](std::size_t k, std::size_t first, std::size_t last) {
+    of[k] = ExtentOf(column, first, last);
+  });
+  Extent<T> all = of[0];
+  for (const Extent<T>& extent : of) {
+    all = {std::min(all.low, extent.low), std::max(all.high, extent.high)};
+  }
+  return all;
 }
 
 }  // namespace
 
 template <typename T>
-void CellGrid<T>::Sort(const Bodies<T>& from, double reach, Bodies<T>* to) {
+void CellGrid<T>::Sort(const Bodies<T>& from, double reach, Bodies<T>* to, ThreadPool* pool) {
   const std::size_t n = from.size();
   to->Resize(n);
   if (n == 0) {
@@ -53,49 +91,82 @@ void CellGrid<T>::Sort(const Bodies<T>& from, double reach, Bodies<T>* to) {
     start_.assign(9, 0);
     return;
   }
-  const double size_x = Span(from.x, n, &low_.x), size_y = Span(from.y, n, &low_.y),
-               size_z = Span(from.z, n, &low_.z);
-
-  const double longest = std::max({size_x, size_y, size_z});
-  const double most_cells = 4.0 * static_cast<double>(n) + 64;
-  double edge = std::max({kMargin * reach, longest / (kMaxCellsPerAxis - 1), 1e-30});
-  const auto cells = [&edge](double size) { return static_cast<int>(size / edge) + 1; };
-  while ((cells(size_x) + 2.0) * (cells(size_y) + 2.0) * (cells(size_z) + 2.0) > most_cells &&
-         edge <= longest) {
-    edge *= 1.25;
-  }
-  nx_ = cells(size_x);
-  ny_ = cells(size_y);
-  nz_ = cells(size_z);
-  inverse_edge_ = static_cast<T>(1 / edge);
+  const auto most_shares = [&](std::size_t most) {
+    const auto threads = static_cast<std::size_t>(pool != nullptr ? pool->threads() : 1);
+    return Shares{n, static_cast<int>(std::max<std::size_t>(1, std::min(threads, most)))};
+  };
+  const Shares shares_of_all = most_shares(n / kLeastChunk);
+  const Extent<T> x = ExtentOf(from.x, shares_of_all, pool),
+                  y = ExtentOf(from.y, shares_of_all, pool),
+                  z = ExtentOf(from.z, shares_of_all, pool);
+  ChooseCells({x.low, y.low, z.low}, {x.high, y.high, z.high}, reach, n);
 
   const View g = view();
   const auto along = [this](T offset, int count) {
     const int k = static_cast<int>(offset * inverse_edge_);
     return 1 + (k < count ? k : count - 1);
   };
+  const std::size_t cells = static_cast<std::size_t>(g.Cell(nx_ + 1, ny_ + 1, nz_ + 1)) + 1;
+  // Each share counts and fills by itself, and those of one cell follow each other in their order:
+  // the sort is stable, so the order is the same however many shares there are.
+  const Shares shares = most_shares(std::min(n / kLeastChunk, 2 * n / cells));
   cell_.resize(n);
-  start_.assign(static_cast<std::size_t>(g.Cell(nx_ + 1, ny_ + 1, nz_ + 1)) + 2, 0);
-  for (std::size_t k = 0; k < n; ++k) {
-    const int cell = g.Cell(along(from.x[k] - low_.x, nx_), along(from.y[k] - low_.y, ny_),
-                            along(from.z[k] - low_.z, nz_));
-    cell_[k] = static_cast<std::uint32_t>(cell);
-    ++start_[cell_[k] + 1];
+  start_.resize(cells + 1);
+  next_.resize(cells * static_cast<std::size_t>(shares.count));
+  shares.ForEach(pool, [&](std::size_t share, std::size_t first, std::size_t last) {
+    std::uint32_t* const count = next_.data() + share * cells;
+    std::fill_n(count, cells, 0);
+    for (std::size_t k = first; k < last; ++k) {
+      const int cell = g.Cell(along(from.x[k] - low_.x, nx_), along(from.y[k] - low_.y, ny_),
+                              along(from.z[k] - low_.z, nz_));
+      cell_[k] = static_cast<std::uint32_t>(cell);
+      ++count[cell];
+    }
+  });
+  std::uint32_t sum = 0;
+  for (std::size_t c = 0; c < cells; ++c) {
+    start_[c] = sum;
+    for (std::size_t share = c; share < next_.size(); share += cells) {
+      const std::uint32_t count = next_[share];
+      next_[share] = sum;
+      sum += count;
+    }
   }
-  for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
-  // Filling moves each start to its end, which is the next one's start: shift back afterwards.
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::uint32_t slot = start_[cell_[k]]++;
-    to->x[slot] = from.x[k];
-    to->y[slot] = from.y[k];
-    to->z[slot] = from.z[k];
-    to->vx[slot] = from.vx[k];
-    to->vy[slot] = from.vy[k];
-    to->vz[slot] = from.vz[k];
-    to->agent[slot] = from.agent[k];
+  start_[cells] = sum;
+  shares.ForEach(pool, [&](std::size_t share, std::size_t first, std::size_t last) {
+    std::uint32_t* const next = next_.data() + share * cells;
+    for (std::size_t k = first; k < last; ++k) {
+      const std::uint32_t slot = next[cell_[k]]++;
+      to->x[slot] = from.x[k];
+      to->y[slot] = from.y[k];
+      to->z[slot] = from.z[k];
+      to->vx[slot] = from.vx[k];
+      to->vy[slot] = from.vy[k];
+      to->vz[slot] = from.vz[k];
+      to->agent[slot] = from.agent[k];
+    }
+  });
+}
+
+template <typename T>
+void CellGrid<T>::ChooseCells(const Vec3<T>& low, const Vec3<T>& high, double reach,
+                              std::size_t n) {
+  const auto size = [](T a, T b) { return static_cast<double>(b) - static_cast<double>(a); };
+  const double size_x = size(low.x, high.x), size_y = size(low.y, high.y),
+               size_z = size(low.z, high.z);
+  const double longest = std::max({size_x, size_y, size_z});
+  const double most_cells = 4.0 * static_cast<double>(n) + 64;
+  double edge = std::max({kMargin * reach, longest / (kMaxCellsPerAxis - 1), 1e-30});
+  const auto cells = [&edge](double along) { return static_cast<int>(along / edge) + 1; };
+  while ((cells(size_x) + 2.0) * (cells(size_y) + 2.0) * (cells(size_z) + 2.0) > most_cells &&
+         edge <= longest) {
+    edge *= 1.25;
   }
-  for (std::size_t c = start_.size() - 1; c > 0; --c) start_[c] = start_[c - 1];
-  start_[0] = 0;
+  low_ = low;
+  nx_ = cells(size_x);
+  ny_ = cells(size_y);
+  nz_ = cells(size_z);
+  inverse_edge_ = static_cast<T>(1 / edge);
 }
 
 template class CellGrid<float>;

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "simulate/core/parallel_for.h"
 #include "simulate/flock/bodies.h"
 
 namespace flocklift {
@@ -21,8 +22,9 @@ namespace flocklift {
 template <typename T>
 class CellGrid {
  public:
-  // Sorts `from` by cell into `to`. Throws std::runtime_error when a position is not finite.
-  void Sort(const Bodies<T>& from, double reach, Bodies<T>* to);
+  // Sorts `from` by cell into `to`, on the pool's threads if there is one; the result is the same.
+  // Throws std::runtime_error when a position is not finite.
+  void Sort(const Bodies<T>& from, double reach, Bodies<T>* to, ThreadPool* pool = nullptr);
 
   // What the kernels read, as plain numbers.
   struct View {
@@ -53,10 +55,12 @@ class CellGrid {
   }
 
  private:
+  void ChooseCells(const Vec3<T>& low, const Vec3<T>& high, double reach, std::size_t n);
+
   Vec3<T> low_;
   T inverse_edge_{};
   int nx_ = 0, ny_ = 0, nz_ = 0;
-  std::vector<std::uint32_t> start_, cell_;
+  std::vector<std::uint32_t> start_, cell_, next_;
 };
 
 extern template class CellGrid<float>;

@@ -55,6 +55,22 @@ Herd<T> MakeHerd(const Swarm& swarm, std::uint64_t first_agent, bool flat) {
   return herd;
 }
 
+// In an order that depends on nothing, in lanes so that it does not wait for itself.
+template <typename T>
+double SumOfNeighbours(const Herd<T>& herd) {
+  constexpr std::size_t kLanes = 8;
+  double lanes[kLanes] = {}, sum = 0;
+  const std::size_t n = herd.size(), whole = n - n % kLanes;
+  for (std::size_t k = 0; k < whole; k += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      lanes[lane] += static_cast<double>(herd.neighbours[k + lane]);
+    }
+  }
+  for (std::size_t k = whole; k < n; ++k) sum += static_cast<double>(herd.neighbours[k]);
+  for (const double lane : lanes) sum += lane;
+  return sum;
+}
+
 ModelSpec Changed(ModelSpec spec, const ModelSpec& change) {
   if (!change.where.empty()) spec.where = change.where;
   for (const auto& [name, value] : change.parameters) spec.parameters[name] = value;
@@ -133,10 +149,7 @@ struct BasicEngine<T>::Impl {
     for (GoalSpec& goal : around.goals) goal.position = GoalPosition(goal, around.time);
     for (Species<T>& s : species) {
       s.motion->Step(around, &pool, &s.herd);
-      // In the order of the sort, one thread: the same sum always.
-      for (std::size_t k = 0; k < s.herd.size(); ++k) {
-        neighbour_sum += static_cast<double>(s.herd.neighbours[k]);
-      }
+      neighbour_sum += SumOfNeighbours(s.herd);
       touched_sum += static_cast<double>(s.motion->touched());
     }
     KeepDistance();

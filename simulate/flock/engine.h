@@ -38,7 +38,7 @@ struct Swarm {
 
 struct EngineOptions {
   int threads = 1;     // 0: all that the machine has
-  std::string kernel;  // "scalar" or a name of kBoidsKernels; empty: the fastest there is
+  std::string kernel;  // "scalar" or a name of kKernels; empty: the fastest there is
 };
 
 // T = float is the simulator; T = double is the reference that its tests compare it with.

@@ -18,7 +18,7 @@ class ForcesMotion final : public Motion<T> {
       : p_(p), forces_(context, herd.size()) {}
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
-    herd->SortBy(forces_.Reach());
+    herd->SortBy(forces_.Reach(), pool);
     for (std::vector<T>* column : {&herd->ax, &herd->ay, &herd->az, &herd->neighbours}) {
       std::fill(column->begin(), column->end(), T(0));
     }

@@ -57,8 +57,8 @@ struct Herd {
 
   // Brings `now` into the order of cells at least `reach` wide. All of an animal's neighbours
   // within reach are then in its own cell and the 26 around it (ForEachInRows).
-  void SortBy(double reach) {
-    grid.Sort(now, reach, &sorted);
+  void SortBy(double reach, ThreadPool* pool = nullptr) {
+    grid.Sort(now, reach, &sorted, pool);
     std::swap(now, sorted);
   }
 };

@@ -20,7 +20,7 @@ class LinMotion final : public Motion<T> {
   explicit LinMotion(const LinParameters<double>& p) : p_(p) {}
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
-    herd->SortBy(p_.d_sep);
+    herd->SortBy(p_.d_sep, pool);
     FindTargets(pool, herd);
     const double kept = p_.inertia > 0 ? std::pow(p_.inertia, around.dt() / p_.frame_time) : 0;
     const SpeedLimit::Params<T> limit{T(0), static_cast<T>(p_.s_max), T(0)};

@@ -28,7 +28,7 @@ struct ViewCone {
 // v / |v|, and nearly 0 for what has no direction.
 template <typename T>
 Vec3<T> SoftUnit(const Vec3<T>& v) {
-  return (T(1.0) / SoftLength(Dot(v, v))) * v;
+  return InverseLength(Dot(v, v)) * v;
 }
 
 // How much of a neighbour at dx is seen. The hard edge needs no root: it compares squares with

@@ -29,6 +29,12 @@ T SoftLength(const T& squared) {
   return sqrt(squared + T(kSoftening));
 }
 
+// 1 / |dx|, finite at 0, from its square.
+template <typename T>
+T InverseLength(const T& squared) {
+  return T(1.0) / SoftLength(squared);
+}
+
 // [x > 0] with an edge `taper` wide, in the unit of x, centred on 0.
 template <typename T>
 T SoftStep(const T& x, const T& taper) {

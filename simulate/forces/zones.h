@@ -30,18 +30,18 @@ struct ZoneParams {
 template <typename T>
 Vec3<T> ZoneDirection(const ZoneParams<T, HardEdge>& p, const Vec3<T>& dx, const Vec3<T>& dv) {
   const T squared = Dot(dx, dx);
-  const auto repelled = squared < p.r_rep * p.r_rep, aligned = squared < p.r_ali * p.r_ali;
-  const auto choose = [&](const T& x, const T& v) -> T {
-    return select(repelled, -x, select(aligned, v, x));
-  };
-  const Vec3<T> way{choose(dx.x, dv.x), choose(dx.y, dv.y), choose(dx.z, dv.z)};
-  return (T(1.0) / SoftLength(Dot(way, way))) * way;
+  const auto repelled = squared < p.r_rep * p.r_rep;
+  const auto aligned = (squared < p.r_ali * p.r_ali) ^ repelled;  // packs mistake != of masks
+  const Vec3<T> way{select(aligned, dv.x, dx.x), select(aligned, dv.y, dx.y),
+                    select(aligned, dv.z, dx.z)};
+  const T scale = InverseLength(Dot(way, way));
+  return select(repelled, T(-scale), scale) * way;
 }
 template <typename T>
 Vec3<T> ZoneDirection(const ZoneParams<T>& p, const Vec3<T>& dx, const Vec3<T>& dv) {
   const T one(1.0), squared = Dot(dx, dx);
   const T s = one - TaperWindow(squared, p.r_rep, p.taper) - TaperWindow(squared, p.r_ali, p.taper);
-  return (s / SoftLength(squared)) * dx + ((one - s * s) / SoftLength(Dot(dv, dv))) * dv;
+  return (s * InverseLength(squared)) * dx + ((one - s * s) * InverseLength(Dot(dv, dv))) * dv;
 }
 
 enum class Zone { kRepulsion, kAlignment, kAttraction };
@@ -62,6 +62,17 @@ struct ZoneForce {
   }
 
  private:
+  template <typename T>
+  static T Membership(const ZoneParams<T, HardEdge>& p, const T& squared) {
+    const auto within = [&](const T& radius) { return squared < radius * radius; };
+    if constexpr (kZone == Zone::kRepulsion) {
+      return Where(within(p.r_rep), T(1.0));
+    } else if constexpr (kZone == Zone::kAlignment) {
+      return Where(within(p.r_ali) ^ within(p.r_rep), T(1.0));
+    } else {
+      return Where((squared <= p.r_att * p.r_att) ^ within(p.r_ali), T(1.0));
+    }
+  }
   template <typename T, typename Taper>
   static T Membership(const ZoneParams<T, Taper>& p, const T& squared) {
     if constexpr (kZone == Zone::kRepulsion) {

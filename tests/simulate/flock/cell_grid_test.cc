@@ -102,6 +102,27 @@ TEST(CellGrid, EmptyFlock) {
   EXPECT_EQ(grid.view().RowCount(), 0);
 }
 
+TEST(CellGrid, AnyNumberOfThreadsSortsTheSame) {
+  std::vector<NamedFlock> flocks = ManyFlocks();
+  flocks.push_back(RandomFlock("large", 20000, {25, 30, 20}, 31));
+  flocks.push_back(RandomFlock("large and sparse", 20000, {400, 300, 500}, 32));
+  for (const NamedFlock& flock : flocks) {
+    SCOPED_TRACE(flock.name);
+    CellGrid<float> grid, pooled;
+    Bodies<float> expected, actual;
+    grid.Sort(AsBodies<float>(flock), 1.05, &expected);
+    for (const int threads : {1, 2, 5}) {
+      ThreadPool pool(threads);
+      pooled.Sort(AsBodies<float>(flock), 1.05, &actual, &pool);
+      EXPECT_EQ(actual.agent, expected.agent);
+      EXPECT_EQ(actual.vy, expected.vy);
+      const auto a = pooled.view(), b = grid.view();
+      ASSERT_EQ(a.Cell(a.nx, a.ny, a.nz), b.Cell(b.nx, b.ny, b.nz));
+      for (int c = 0; c <= a.Cell(a.nx, a.ny, a.nz); ++c) EXPECT_EQ(a.start[c], b.start[c]);
+    }
+  }
+}
+
 TEST(CellGrid, RefusesPositionsThatAreNotFinite) {
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {

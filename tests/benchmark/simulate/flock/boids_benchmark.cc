@@ -15,7 +15,7 @@
 
 #include "simulate/core/rng.h"
 #include "simulate/flock/engine.h"
-#include "simulate/flock/kernels/boids_kernel.h"
+#include "simulate/flock/kernels/kernels.h"
 
 namespace flocklift {
 namespace {
@@ -54,8 +54,8 @@ void Step(benchmark::State& state, const std::string& kernel) {
 
 void RegisterAll() {
   std::vector<std::string> kernels = {"scalar"};
-  for (const BoidsKernelVariant& variant : kBoidsKernels) {
-    if (variant.supported()) kernels.emplace_back(variant.name);
+  for (const KernelVariant* variant : kKernels) {
+    if (variant->supported()) kernels.emplace_back(variant->name);
   }
   for (const std::string& kernel : kernels) {
     auto* const one = benchmark::RegisterBenchmark(("boids_step/" + kernel).c_str(), Step, kernel);

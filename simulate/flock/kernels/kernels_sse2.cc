@@ -6,10 +6,14 @@
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
 
+#include "simulate/flock/kernels/arch.h"
+
+FLOCKLIFT_KERNEL_ARCH(Sse2, xsimd::sse2)
+
 namespace flocklift {
 namespace {
 
-std::uint64_t LaneMask(const xsimd::batch_bool<float, xsimd::sse2>& lanes) {
+std::uint64_t LaneMask(const xsimd::batch_bool<float, Sse2>& lanes) {
   return static_cast<unsigned>(_mm_movemask_ps(lanes.data));
 }
 
@@ -26,16 +30,15 @@ std::uint32_t AppendSetBits(std::uint64_t mask, std::uint32_t base, std::uint32_
 }  // namespace
 }  // namespace flocklift
 
-#include "simulate/flock/kernels/boids_kernel_inl.h"
+#include "simulate/flock/kernels/kernels_inl.h"
 
 namespace flocklift {
 
-void BoidsKernelSse2(const BoidsJob& job, int first_row, int last_row, std::uint32_t* candidates) {
-  BoidsRows<xsimd::batch<float, xsimd::sse2>>(job, first_row, last_row, candidates);
-}
+namespace {
+bool Supported() { return true; }
+}  // namespace
 
-void MoveKernelSse2(const MoveJob& job, std::uint32_t first, std::uint32_t last) {
-  Move<xsimd::batch<float, xsimd::sse2>>(job, first, last);
-}
+constinit const KernelVariant kSse2Kernels =
+    Kernels<xsimd::batch<float, Sse2>>::Named("sse2", Supported);
 
 }  // namespace flocklift

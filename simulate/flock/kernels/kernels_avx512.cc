@@ -33,17 +33,17 @@ std::uint32_t AppendSetBits(std::uint64_t mask, std::uint32_t base, std::uint32_
 }  // namespace
 }  // namespace flocklift
 
-#include "simulate/flock/kernels/boids_kernel_inl.h"
+#include "simulate/flock/kernels/kernels_inl.h"
 
 namespace flocklift {
 
-void BoidsKernelAvx512(const BoidsJob& job, int first_row, int last_row,
-                       std::uint32_t* candidates) {
-  BoidsRows<xsimd::batch<float, Avx512Vl>>(job, first_row, last_row, candidates);
+namespace {
+bool Supported() {
+  return __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("fma") != 0;
 }
+}  // namespace
 
-void MoveKernelAvx512(const MoveJob& job, std::uint32_t first, std::uint32_t last) {
-  Move<xsimd::batch<float, Avx512Vl>>(job, first, last);
-}
+constinit const KernelVariant kAvx512Kernels =
+    Kernels<xsimd::batch<float, Avx512Vl>>::Named("avx512", Supported);
 
 }  // namespace flocklift
