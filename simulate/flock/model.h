@@ -13,9 +13,11 @@
 
 #include "simulate/core/scene.h"
 #include "simulate/flock/boids.h"
+#include "simulate/flock/bswarm_model.h"
 #include "simulate/flock/forces_model.h"
 #include "simulate/flock/lin_model.h"
 #include "simulate/flock/linear_model.h"
+#include "simulate/flock/opensteer_model.h"
 #include "simulate/flock/registry.h"
 #include "simulate/flock/swarm_model.h"
 
@@ -25,8 +27,9 @@ namespace flocklift {
 const std::vector<ModelInfo>& Models();
 const ModelInfo* FindModel(std::string_view name);
 
-using ModelParameters = std::variant<BoidsParameters<double>, LinParameters<double>,
-                                     LinearParameters<double>, ForcesParameters, SwarmParameters>;
+using ModelParameters =
+    std::variant<BoidsParameters<double>, LinParameters<double>, LinearParameters<double>,
+                 ForcesParameters, OpenSteerParameters, BSwarmParameters, SwarmParameters>;
 
 // Registry::Resolve and Registry::Complete of the models.
 ModelParameters ResolveModel(const ModelSpec& spec);

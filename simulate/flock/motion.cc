@@ -4,9 +4,11 @@
 #include "simulate/flock/motion.h"
 
 #include "simulate/flock/boids_motion.h"
+#include "simulate/flock/bswarm_motion.h"
 #include "simulate/flock/forces_motion.h"
 #include "simulate/flock/lin_motion.h"
 #include "simulate/flock/linear_motion.h"
+#include "simulate/flock/opensteer_motion.h"
 #include "simulate/flock/swarm_motion.h"
 
 namespace flocklift {
@@ -22,6 +24,8 @@ struct Make {
   Result operator()(const BoidsParameters<double>& p) { return MakeBoidsMotion(p, context, *herd); }
   Result operator()(const LinParameters<double>& p) { return MakeLinMotion<T>(p, context); }
   Result operator()(const LinearParameters<double>& p) { return MakeLinearMotion<T>(p, context); }
+  Result operator()(const OpenSteerParameters& p) { return MakeOpenSteerMotion(p, context, *herd); }
+  Result operator()(const BSwarmParameters& p) { return MakeBSwarmMotion(p, context, *herd); }
   Result operator()(const ForcesParameters& p) { return MakeForcesMotion(p, context, *herd); }
   Result operator()(const SwarmParameters& p) { return MakeSwarmMotion(p, context, *herd); }
 };

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -189,6 +190,34 @@ TEST_P(SceneFile, StaysInViewAndMoves) {
 INSTANTIATE_TEST_SUITE_P(All, SceneFile,
                          ::testing::Values("demo", "boids3d", "boids2d", "predator", "lin",
                                            "transit"));
+
+// The scenes of other models, whatever their scale: everybody stays near the box, moves, and keeps
+// to the model's highest speed.
+class ModelScene : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ModelScene, StaysNearItsBoxAndMoves) {
+  Scene scene =
+      ReadScene(std::string(FLOCKLIFT_SOURCE_DIR) + "/data_synthetic/" + GetParam() + ".toml");
+  scene.duration = std::min(scene.duration, 3.0);
+  const SceneResult result = SimulateScene(scene, {}, {});
+  const Vec3d margin = 0.25 * (scene.box.high - scene.box.low);
+  const double limit = scene.species.front().speed;
+  for (const Trajectory& trajectory : result.truth.trajectories) {
+    double fastest = 0;
+    for (const TrajectoryPoint& point : trajectory.points) {
+      const Vec3d low = point.position - scene.box.low + margin;
+      const Vec3d high = scene.box.high + margin - point.position;
+      EXPECT_GT(std::min({low.x, low.y, low.z, high.x, high.y, high.z}), 0);
+      fastest = std::max(fastest, Norm(point.velocity));
+    }
+    EXPECT_GT(fastest, 0.1 * limit);
+    EXPECT_LT(fastest, 4 * limit);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ModelScene,
+                         ::testing::Values("opensteer", "glass_box", "mating", "village_migration",
+                                           "escape", "phase_transition"));
 
 // What the demo promises to the reconstruction: the mean speed given as a prior is the flock's own,
 // and the flock stays where the camera sees it.
