@@ -37,6 +37,7 @@ class CoverageMask {
   void Finish();
   // `width` shares of row v of the window, in [0, 1] when the weights added up to 1.
   const float* Row(int v) const { return rows_.data() + Offset(v); }
+  float* Row(int v) { return rows_.data() + Offset(v); }
 
  private:
   std::size_t Offset(int row) const {

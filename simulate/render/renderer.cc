@@ -13,6 +13,7 @@
 
 #include "simulate/core/check.h"
 #include "simulate/core/rng.h"
+#include "simulate/render/canvas.h"
 #include "simulate/render/coverage.h"
 
 namespace flocklift {
@@ -22,16 +23,22 @@ constexpr std::array<double, 3> kPlumage{46, 45, 50};  // blue green red [grey l
 constexpr double kPlumageSpread = 5;                   // sd between individuals [grey levels]
 constexpr std::uint64_t kPlumageStream = 0x706c756d65;
 
-constexpr double kStepPx = 3;  // way of body and wing tip together between two exposures [px]
-constexpr int kMaxPairs = 4;   // of exposures before and after the frame's time
+constexpr double kStepPx = 3;       // way of body and wing tip together between two exposures [px]
+constexpr int kMaxPairs = 4;        // of exposures before and after the frame's time
+constexpr double kMostDabs = 4000;  // of one speck's streak
+static_assert(Canvas::kUnit == Background::kUnit);
 
-// One animal, ready to be laid over the background.
-struct Sprite {
-  CoverageMask mask;
-  double depth;
-  double contrast;                   // left by the haze, in [0, 1]
-  std::array<std::int32_t, 3> tone;  // [1 / Background::kUnit grey levels]
-};
+// Plumage differs a little between individuals.
+Paint PlumageOf(Id id, std::uint64_t seed) {
+  Rng rng(seed, kPlumageStream ^ static_cast<std::uint64_t>(id));
+  const double shade = kPlumageSpread * rng.Normal();
+  Paint paint;
+  for (std::size_t c = 0; c < 3; ++c) {
+    paint.tone[c] =
+        static_cast<std::int32_t>(std::lround(std::max(0.0, kPlumage[c] + shade) * Canvas::kUnit));
+  }
+  return paint;
+}
 
 // The animal at `offset` seconds from the frame's time, flying straight on.
 std::optional<ProjectedBody> Expose(FlyingAnimal animal, double time, double offset,
@@ -81,40 +88,6 @@ std::optional<CoverageMask> ExposeMask(const FlyingAnimal& animal, double time, 
   return mask;
 }
 
-// Row v of the image: background and noise in `row`, then what a sprite covers of it.
-void LayOver(const Sprite& sprite, int v, std::int16_t* row) {
-  const float* cover = sprite.mask.Row(v - sprite.mask.top());
-  std::int16_t* pixel = row + 3 * sprite.mask.left();
-  for (int u = 0; u < sprite.mask.width(); ++u, pixel += 3) {
-    if (cover[u] == 0) continue;
-    const auto share = static_cast<std::int32_t>(std::lround(cover[u] * sprite.contrast * 32768));
-    for (std::size_t c = 0; c < 3; ++c) {
-      pixel[c] = static_cast<std::int16_t>(
-          pixel[c] + (((sprite.tone[c] - pixel[c]) * share + (1 << 14)) >> 15));
-    }
-  }
-}
-
-// To whole grey levels, noise added; noise may be null.
-void Develop(const std::int16_t* row, const std::int16_t* noise, int length, std::uint8_t* out) {
-  constexpr int kShift = 6;
-  static_assert(Background::kUnit == 1 << kShift);
-  constexpr int kTop = 255 * Background::kUnit;
-  constexpr int kHalf = Background::kUnit / 2;
-  if (noise == nullptr) {
-    for (int k = 0; k < length; ++k) {
-      out[k] = static_cast<std::uint8_t>((row[k] + kHalf) >> kShift);
-    }
-    return;
-  }
-  for (int k = 0; k < length; ++k) {
-    // |noise| <= 16000 and row <= 16320: the sum fits 16 bits.
-    auto sum = static_cast<std::int16_t>(row[k] + noise[k]);
-    sum = std::clamp<std::int16_t>(sum, 0, kTop);
-    out[k] = static_cast<std::uint8_t>(static_cast<std::int16_t>(sum + kHalf) >> kShift);
-  }
-}
-
 void CheckSpec(const Camera& camera, const RenderSpec& spec, double fps) {
   Check(camera.width > 0 && camera.height > 0, "a camera without a size cannot film");
   Check(fps > 0, "fps must be positive to film");
@@ -129,7 +102,40 @@ const Camera& Checked(const Camera& camera, const RenderSpec& spec, double fps) 
   return camera;
 }
 
+// A streak of equal dabs, at most half a pixel apart.
+void Draw(const Speck& speck, const Paint& paint, std::uint32_t grain, Canvas* canvas) {
+  const Vec2d way{speck.to.x - speck.from.x, speck.to.y - speck.from.y};
+  const int dabs = 1 + static_cast<int>(std::min(kMostDabs, 2 * std::hypot(way.x, way.y)));
+  for (int k = 0; k < dabs; ++k) {
+    const double share = (k + 0.5) / dabs;
+    canvas->Dab({speck.from.x + share * way.x, speck.from.y + share * way.y}, speck.area / dabs,
+                paint, grain + 4 * static_cast<std::uint32_t>(k));
+  }
+}
+
 }  // namespace
+
+struct FlockRenderer::Bench {
+  // A layer is a speck or a patch.
+  struct Layer {
+    double depth;
+    std::uint32_t index;
+    bool is_speck;
+  };
+  struct PaintedSpeck {
+    Speck speck;
+    Paint paint;
+    std::uint32_t grain;
+  };
+
+  Canvas canvas;
+  std::unique_ptr<DepthBuffer> surfaces;  // made when there is a surface
+  LineCover line_cover;                   // made when there is a line
+  std::vector<PaintedSpeck> specks;
+  std::vector<Layer> layers;
+
+  Bench(int width, int height) : canvas(width, height) {}
+};
 
 FlockRenderer::FlockRenderer(const Camera& camera, const RenderSpec& spec, double fps,
                              std::uint64_t seed)
@@ -138,38 +144,101 @@ FlockRenderer::FlockRenderer(const Camera& camera, const RenderSpec& spec, doubl
       shutter_(spec.blur / fps),
       seed_(seed),
       background_(spec.background, camera.width, camera.height, spec.cloud_speed_px, seed),
-      noise_(spec.noise * Background::kUnit, 3 * camera.width, seed) {}
+      noise_(spec.noise * Background::kUnit, 3 * camera.width, seed),
+      surface_painter_(camera) {}
 
-Image FlockRenderer::Render(int frame, double time, std::span<const FlyingAnimal> animals) const {
-  const Rigid3d cam_from_world = camera_.CamFromWorld(frame);
-  std::vector<Sprite> sprites;
-  for (const FlyingAnimal& animal : animals) {
-    double depth = 0;
-    auto mask = ExposeMask(animal, time, shutter_, camera_, cam_from_world, &depth);
-    if (!mask) continue;
-    Rng rng(seed_, kPlumageStream ^ static_cast<std::uint64_t>(animal.animal.id));
-    const double shade = kPlumageSpread * rng.Normal();
-    Sprite& sprite = sprites.emplace_back(
-        Sprite{*std::move(mask), depth, spec_.haze > 0 ? std::exp(-depth / spec_.haze) : 1, {}});
-    for (std::size_t c = 0; c < 3; ++c) {
-      sprite.tone[c] = static_cast<std::int32_t>(
-          std::lround(std::max(0.0, kPlumage[c] + shade) * Background::kUnit));
+FlockRenderer::~FlockRenderer() = default;
+
+std::unique_ptr<FlockRenderer::Bench> FlockRenderer::TakeBench() const {
+  {
+    const std::lock_guard lock(idle_mutex_);
+    if (!idle_.empty()) {
+      auto bench = std::move(idle_.back());
+      idle_.pop_back();
+      return bench;
     }
   }
-  std::stable_sort(sprites.begin(), sprites.end(),
-                   [](const Sprite& a, const Sprite& b) { return a.depth > b.depth; });
+  return std::make_unique<Bench>(camera_.width, camera_.height);
+}
+
+void FlockRenderer::Sketch(std::span<const FlyingAnimal> animals, int frame, double time,
+                           const Rigid3d& cam_from_world, std::vector<Patch>* patches,
+                           Bench* bench) const {
+  bench->specks.clear();
+  for (const FlyingAnimal& animal : animals) {
+    const double depth = (cam_from_world * animal.position).z;
+    Paint paint = PlumageOf(animal.animal.id, seed_);
+    const auto at_depth = [&](double z) {
+      paint.depth = z;
+      paint.opacity = spec_.haze > 0 ? std::exp(-z / spec_.haze) : 1;
+      return paint;
+    };
+    if (depth > 0 && SizePx(animal.animal, depth, camera_) < kSpeckPx) {
+      const auto speck =
+          ProjectSpeck(animal, time, shutter_, speck_areas_, camera_, cam_from_world);
+      if (!speck) continue;
+      bench->specks.push_back({*speck, at_depth(depth),
+                               static_cast<std::uint32_t>(animal.animal.id * 977 + frame * 7919)});
+      continue;
+    }
+    double middle_depth = 0;
+    auto mask = ExposeMask(animal, time, shutter_, camera_, cam_from_world, &middle_depth);
+    if (mask) patches->push_back({*std::move(mask), at_depth(middle_depth)});
+  }
+}
+
+Image FlockRenderer::Render(int frame, double time, std::span<const FlyingAnimal> animals,
+                            const Setting& setting) const {
+  const Rigid3d cam_from_world = camera_.CamFromWorld(frame);
+  std::unique_ptr<Bench> bench = TakeBench();
+  Canvas& canvas = bench->canvas;
+  for (int v = 0; v < camera_.height; ++v) background_.Row(v, frame, canvas.Row(v));
+
+  if (!setting.surfaces.empty() && !bench->surfaces) {
+    bench->surfaces = std::make_unique<DepthBuffer>(camera_.width, camera_.height);
+  }
+  for (const Surface& surface : setting.surfaces) {
+    surface_painter_.Draw(surface, cam_from_world, shutter_, bench->surfaces.get());
+  }
+  canvas.Place(bench->surfaces.get(), spec_.haze);
+
+  std::vector<Patch> patches;
+  if (!setting.strokes.empty()) {
+    bench->line_cover.resize(static_cast<std::size_t>(camera_.width) *
+                             static_cast<std::size_t>(camera_.height));
+  }
+  for (const Stroke& stroke : setting.strokes) {
+    AddStroke(stroke, camera_, cam_from_world, spec_.haze, &bench->line_cover, &patches);
+  }
+  for (const Ball& ball : setting.balls) {
+    AddBall(ball, camera_, cam_from_world, spec_.haze, &patches);
+  }
+  Sketch(animals, frame, time, cam_from_world, &patches, bench.get());
+
+  std::vector<Bench::Layer>& layers = bench->layers;
+  layers.clear();
+  for (std::uint32_t k = 0; k < patches.size(); ++k) {
+    layers.push_back({patches[k].paint.depth, k, false});
+  }
+  for (std::uint32_t k = 0; k < bench->specks.size(); ++k) {
+    layers.push_back({bench->specks[k].paint.depth, k, true});
+  }
+  std::stable_sort(layers.begin(), layers.end(),
+                   [](const Bench::Layer& a, const Bench::Layer& b) { return a.depth > b.depth; });
+  for (const Bench::Layer& layer : layers) {
+    if (layer.is_speck) {
+      const Bench::PaintedSpeck& s = bench->specks[layer.index];
+      Draw(s.speck, s.paint, s.grain, &canvas);
+    } else {
+      canvas.LayOver(patches[layer.index].mask, patches[layer.index].paint);
+    }
+  }
 
   Image image(camera_.width, camera_.height);
-  std::vector<std::int16_t> row(3 * static_cast<std::size_t>(camera_.width));
-  for (int v = 0; v < camera_.height; ++v) {
-    background_.Row(v, frame, row.data());
-    for (const Sprite& sprite : sprites) {
-      if (v >= sprite.mask.top() && v < sprite.mask.top() + sprite.mask.height()) {
-        LayOver(sprite, v, row.data());
-      }
-    }
-    Develop(row.data(), noise_.Row(v, frame), 3 * camera_.width, image.Row(v));
-  }
+  for (int v = 0; v < camera_.height; ++v) canvas.Develop(v, noise_.Row(v, frame), image.Row(v));
+  if (bench->surfaces) bench->surfaces->Clear();
+  const std::lock_guard lock(idle_mutex_);
+  idle_.push_back(std::move(bench));
   return image;
 }
 

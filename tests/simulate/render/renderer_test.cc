@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "simulate/camera/projection.h"
@@ -220,6 +221,132 @@ TEST(RendererTest, BirdsAcrossTheBorderAreCutOff) {
   }
   FlyingAnimal close = BirdAt(camera, {30, 20}, 1.2, 100, {1, 0, 0});
   EXPECT_GT(Darkening(empty, renderer.Render(1, 0, {&close, 1})).sum, 0);
+}
+
+// Below kSpeckPx the area alone is drawn: the darkness of a bird must not jump there.
+TEST(RendererTest, DarknessGoesOnAcrossTheSizeOfASpeck) {
+  const Camera camera = PinholeCamera(50, 200, 160);
+  RenderSpec blurred = Clean();
+  blurred.blur = 0.5;
+  const FlockRenderer renderer(camera, blurred, 30, 1);
+  const Image empty = renderer.Render(1, 0, {});
+  double worst = 0;
+  for (std::uint64_t trial = 0; trial < 12; ++trial) {
+    double sum[2] = {0, 0};
+    for (const int side : {0, 1}) {
+      // Many birds in the same pose, each at its own place in a pixel, so that whole grey levels
+      // average out; as far as the scale, the two pictures are the same.
+      const double span_px = kSpeckPx * (side == 0 ? 1 - 1e-6 : 1 + 1e-6);
+      Rng pose(5, trial);
+      const Vec3d heading{pose.Normal(), pose.Normal(), 0.5 * pose.Normal()};
+      const double speed = trial % 2 == 0 ? 0 : 3;
+      std::vector<FlyingAnimal> birds;
+      for (int k = 0; k < 88; ++k) {
+        Rng place(6, static_cast<std::uint64_t>(k));
+        const Vec2d pixel{20 + 15 * (k % 11) + place.Uniform(),
+                          20 + 15 * (k / 11) + place.Uniform()};
+        birds.push_back(BirdAt(camera, pixel, 20, span_px, heading));
+        birds.back().velocity = speed * Normalized(heading);
+      }
+      const Darkening dark(empty, renderer.Render(1, 0.3, birds));
+      sum[side] = dark.sum;
+    }
+    EXPECT_NEAR(sum[0] / sum[1], 1, 0.05) << trial;
+    worst = std::max(worst, std::abs(sum[0] / sum[1] - 1));
+  }
+  RecordProperty("worst", std::to_string(worst));
+}
+
+// A swarm far away must darken the sky by the area of its animals, however small each is.
+TEST(RendererTest, ManyTinyAnimalsKeepTheirTotalDarkness) {
+  const Camera camera = PinholeCamera(50, 200, 160);
+  RenderSpec spec = Clean();
+  spec.noise = 3;  // the same in both pictures: what is less than a grey level is not rounded away
+  const FlockRenderer renderer(camera, spec, 30, 1);
+  const Image empty = renderer.Render(1, 0, {});
+  double per_area = 0;
+  for (const double span_px : {1.2, 0.3, 0.08}) {
+    std::vector<FlyingAnimal> swarm;
+    const int count = static_cast<int>(1500 / (span_px * span_px));
+    for (int k = 0; k < count; ++k) {
+      Rng rng(9, static_cast<std::uint64_t>(k));
+      swarm.push_back(
+          BirdAt(camera, {rng.Uniform(10, 190), rng.Uniform(10, 150)}, 20, span_px, {1, 0.2, 0.4}));
+    }
+    const double darkness =
+        Darkening(empty, renderer.Render(1, 0, swarm)).sum / (count * span_px * span_px);
+    if (per_area == 0) per_area = darkness;
+    EXPECT_NEAR(darkness / per_area, 1, 0.02) << span_px;
+  }
+}
+
+// A wall 20 m away, over the left half of the image.
+struct Wall {
+  TriangleMesh mesh{{{-30, -30, 20}, {0, -30, 20}, {0, 30, 20}, {-30, 30, 20}},
+                    {{0, 1, 2}, {0, 2, 3}}};
+  std::vector<Color> tones{{120, 130, 140}};
+  Surface surface{.vertices = mesh.vertices,
+                  .triangles = mesh.triangles,
+                  .tones = tones,
+                  .normals = {},
+                  .velocities = {}};
+};
+
+TEST(RendererTest, AnObstacleHidesAnimalsBehindItAlone) {
+  const Camera camera = PinholeCamera(50, 200, 120);
+  const FlockRenderer renderer(camera, Clean(), 30, 1);
+  const Wall wall;
+  const Setting setting{.surfaces = {&wall.surface, 1}, .strokes = {}, .balls = {}};
+  const Image empty = renderer.Render(1, 0, {}), walled = renderer.Render(1, 0, {}, setting);
+  EXPECT_NE(walled.Row(60)[3 * 50], empty.Row(60)[3 * 50]);
+  EXPECT_EQ(walled.Row(60)[3 * 150], empty.Row(60)[3 * 150]);
+  for (const double span_px : {1.0, 30.0}) {  // a speck, and a silhouette
+    for (const double depth : {10.0, 40.0}) {
+      const FlyingAnimal left = BirdAt(camera, {50, 60}, depth, span_px, {1, 0, 0.2});
+      const FlyingAnimal right = BirdAt(camera, {150, 60}, depth, span_px, {1, 0, 0.2});
+      EXPECT_EQ(renderer.Render(1, 0, {&left, 1}, setting).bgr == walled.bgr, depth > 20)
+          << span_px << " " << depth;
+      EXPECT_NE(renderer.Render(1, 0, {&right, 1}, setting).bgr, walled.bgr);
+    }
+  }
+  // Across the edge, half of the bird is left.
+  const FlyingAnimal across = BirdAt(camera, {99.5, 60}, 40, 40, {0, 0, 1});
+  const double whole = Darkening(empty, renderer.Render(1, 0, {&across, 1})).sum;
+  const double half = Darkening(walled, renderer.Render(1, 0, {&across, 1}, setting)).sum;
+  EXPECT_NEAR(half / whole, 0.5, 0.03);
+}
+
+TEST(RendererTest, OneFrameLeavesNothingForTheNext) {
+  const Camera camera = PinholeCamera(50, 200, 120);
+  const FlockRenderer used(camera, {}, 30, 1), fresh(camera, {}, 30, 1);
+  const Wall wall;
+  const Stroke line{.points = {{-5, 0, 15}, {5, 1, 25}}, .color = {0, 0, 255}};
+  const Ball ball{.center = {3, 0, 18}, .radius = 2, .color = {0, 200, 0}};
+  const Setting setting{.surfaces = {&wall.surface, 1}, .strokes = {&line, 1}, .balls = {&ball, 1}};
+  const FlyingAnimal bird = BirdAt(camera, {90, 60}, 20, 30, {1, 0, 0});
+  const Image first = used.Render(1, 0, {&bird, 1}, setting);
+  EXPECT_EQ(used.Render(2, 0.1, {&bird, 1}).bgr, fresh.Render(2, 0.1, {&bird, 1}).bgr);
+  EXPECT_EQ(used.Render(1, 0, {&bird, 1}, setting).bgr, first.bgr);
+}
+
+TEST(RendererTest, LinesAndBallsAreHiddenByObstacles) {
+  const Camera camera = PinholeCamera(50, 200, 120);
+  const FlockRenderer renderer(camera, Clean(), 30, 1);
+  const Wall wall;
+  const Stroke line{.points = {{-10, 0, 30}, {10, 0, 30}}, .color = {0, 0, 255}, .width_px = 3};
+  const Ball ball{.center = {0, 3, 40}, .radius = 3, .color = {0, 200, 0}, .opacity = 0.5};
+  const Setting bare{.surfaces = {&wall.surface, 1}, .strokes = {}, .balls = {}};
+  const Setting marked{.surfaces = {&wall.surface, 1}, .strokes = {&line, 1}, .balls = {&ball, 1}};
+  const Image without = renderer.Render(1, 0, {}, bare), with = renderer.Render(1, 0, {}, marked);
+  int changed[2] = {0, 0};
+  for (int v = 0; v < 120; ++v) {
+    for (int u = 0; u < 200; ++u) {
+      const bool differs = with.Row(v)[3 * u] != without.Row(v)[3 * u];
+      changed[u < 99 ? 0 : 1] += differs ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(changed[0], 0);
+  EXPECT_GT(changed[1], 200);
 }
 
 TEST(RendererTest, RefusesWhatIsOutOfRange) {
