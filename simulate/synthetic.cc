@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "simulate/core/check.h"
@@ -13,6 +14,7 @@
 #include "simulate/core/rng.h"
 #include "simulate/render/body.h"
 #include "simulate/render/flight.h"
+#include "simulate/render/visibility.h"
 
 namespace flocklift {
 namespace {
@@ -26,7 +28,7 @@ struct Row {
 };
 
 std::optional<Row> Observe(const FlyingAnimal& animal, int frame, double time, const Camera& camera,
-                           const Rigid3d& cam_from_world) {
+                           const Rigid3d& cam_from_world, const DepthBuffer* surfaces) {
   const auto body = ProjectBody(animal, time, camera, cam_from_world);
   if (!body || !camera.Sees(body->center)) return std::nullopt;
   const Box bounds = BoundsOf(body->silhouette);
@@ -38,6 +40,7 @@ std::optional<Row> Observe(const FlyingAnimal& animal, int frame, double time, c
   row.detection.frame = frame;
   row.detection.box = Box::Around(body->center, 2 * half_width, 2 * half_height);
   row.detection.shape = ShapeOf(MomentsOf(body->silhouette));
+  if (surfaces != nullptr) row.detection.visibility = VisibleShare(*body, *surfaces);
   return row;
 }
 
@@ -73,17 +76,29 @@ int Poisson(double mean, Rng* rng) {
 }  // namespace
 
 Tracks SynthesizeTracks(const Trajectories& trajectories, std::span<const Animal> animals,
-                        const Camera& camera, double fps, int threads) {
+                        const Camera& camera, double fps, int threads, const Scenery* scenery) {
+  constexpr std::int64_t kGrain = 8;  // frames that share one depth buffer
   const Flight flight(trajectories, animals, camera, fps);
   const FrameSpan span = flight.span();
   const std::int64_t frames = std::max(0, span.last - span.first + 1);
   std::vector<std::vector<Row>> rows(static_cast<std::size_t>(frames));
-  ParallelFor(threads, 0, frames, 1, [&](std::int64_t first, std::int64_t last) {
+  const bool may_hide = scenery != nullptr && !scenery->empty();
+  const SurfacePainter painter(camera);
+  ParallelFor(threads, 0, frames, kGrain, [&](std::int64_t first, std::int64_t last) {
+    std::unique_ptr<DepthBuffer> surfaces;
+    if (may_hide) surfaces = std::make_unique<DepthBuffer>(camera.width, camera.height);
     for (std::int64_t k = first; k < last; ++k) {
       const int frame = span.first + static_cast<int>(k);
       const Rigid3d cam_from_world = camera.CamFromWorld(frame);
+      if (surfaces) {
+        surfaces->Clear();
+        scenery->WithSurfaces(frame, [&](std::span<const Surface> views) {
+          for (const Surface& view : views) painter.Draw(view, cam_from_world, 0, surfaces.get());
+        });
+      }
       for (const FlyingAnimal& animal : flight.At(frame)) {
-        auto row = Observe(animal, frame, flight.TimeOf(frame), camera, cam_from_world);
+        auto row =
+            Observe(animal, frame, flight.TimeOf(frame), camera, cam_from_world, surfaces.get());
         if (row) rows[static_cast<std::size_t>(k)].push_back(*std::move(row));
       }
     }

@@ -16,15 +16,19 @@
 #include "simulate/core/observations.h"
 #include "simulate/core/options.h"
 #include "simulate/core/trajectory.h"
+#include "simulate/render/scenery.h"
 
 namespace flocklift {
 
-// True observations. A row exists while the projected position is on the sensor, hidden by others
-// or not; its box is centred there and just encloses the silhouette at the frame's time (without
-// motion blur), its shape is the silhouette's. An animal that returns keeps its id. Animals without
-// a body in `animals` get the default one. threads: 0 takes all; the result does not depend on it.
+// True observations. A row exists while the projected position is on the sensor, hidden or not; its
+// box is centred there and just encloses the silhouette at the frame's time (without motion blur),
+// its shape is the silhouette's, its visibility the share that the obstacles of `scenery` (may be
+// null) leave to be seen; other animals do not count. An animal that returns keeps its id. Animals
+// without a body in `animals` get the default one. threads: 0 takes all; the result does not depend
+// on it.
 Tracks SynthesizeTracks(const Trajectories& trajectories, std::span<const Animal> animals,
-                        const Camera& camera, double fps, int threads = 1);
+                        const Camera& camera, double fps, int threads = 1,
+                        const Scenery* scenery = nullptr);
 
 struct ObservationNoise {
   double position_sd = 0.5;  // of the box centre, each coordinate [px]

@@ -25,7 +25,7 @@ class CsvWriter : public TableWriter {
     }
   }
 
-  void Add(int frame, Id id, std::span<const double> values) override {
+  void Add(int frame, Id id, std::span<const double> values, std::string_view end_of_row) override {
     FLOCKLIFT_DCHECK(values.size() == column_count_);
     auto out = std::back_inserter(writer_.buffer());
     fmt::format_to(out, "{},{}", frame, id);
@@ -36,7 +36,8 @@ class CsvWriter : public TableWriter {
         fmt::format_to(out, ",{:.{}f}", value, style_.decimals);
       }
     }
-    fmt::format_to(out, "{}\n", style_.end_of_row);
+    fmt::format_to(out, "{}\n",
+                   end_of_row.empty() ? std::string_view(style_.end_of_row) : end_of_row);
     writer_.FlushIfFull();
   }
 

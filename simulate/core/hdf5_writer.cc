@@ -74,7 +74,8 @@ class Hdf5Writer : public TableWriter {
     for (const std::string& name : columns) columns_.emplace_back(group_, name, H5T_IEEE_F64LE);
   }
 
-  void Add(int frame, Id id, std::span<const double> values) override {
+  void Add(int frame, Id id, std::span<const double> values,
+           std::string_view /*end_of_row*/) override {
     FLOCKLIFT_DCHECK(values.size() == values_.size());
     frames_.push_back(frame);
     ids_.push_back(id);

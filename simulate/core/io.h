@@ -47,7 +47,8 @@ Tracks ReadTracks(std::istream& stream, const std::string& name);
 // By frame, then id.
 void WriteTracks(const std::filesystem::path& path, const Tracks& tracks);
 // The same for the truth of a simulation. MOTChallenge's ground truth has the visibility in its
-// ninth column, and scorers leave out rows where it is low: it is 1 here, hidden animals count.
+// ninth column, and scorers may leave out rows where it is low: it is the share that obstacles
+// leave to be seen, so that animals behind others count.
 void WriteTrueTracks(const std::filesystem::path& path, const Tracks& tracks);
 
 // Writes rows as they come: bounded memory. Without Commit no file appears.
@@ -60,6 +61,7 @@ class TrackWriter {
 
  private:
   std::unique_ptr<internal::TableWriter> writer_;
+  bool is_truth_;
 };
 
 // As tracks, id -1; frames that have no detection are not listed.

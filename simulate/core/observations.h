@@ -41,6 +41,7 @@ struct Detection {
   Box box;
   double confidence = 1;
   std::optional<Shape> shape;
+  double visibility = 1;  // share that obstacles leave to be seen; in the truth of a simulation
 };
 
 inline constexpr double kMeasuredConfidence = 0.5;  // and above: seen, not interpolated

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulate/core/table.h"
@@ -32,8 +33,11 @@ class TableWriter {
                                              std::optional<double> fps, const TextStyle& style);
   virtual ~TableWriter() = default;
 
-  // `values`: one per column that is written.
-  virtual void Add(int frame, Id id, std::span<const double> values) = 0;
+  // `values`: one per column that is written. In text, `end_of_row` stands for the style's, unless
+  // it is empty.
+  virtual void Add(int frame, Id id, std::span<const double> values,
+                   std::string_view end_of_row) = 0;
+  void Add(int frame, Id id, std::span<const double> values) { Add(frame, id, values, {}); }
   virtual void Commit() = 0;
 };
 

@@ -134,14 +134,19 @@ TrackWriter::TrackWriter(const std::filesystem::path& path, std::optional<double
                          bool is_truth)
     : writer_(internal::TableWriter::Create(
           path, Layout(true), {true, true}, fps,
-          {.decimals = kDecimals, .end_of_row = is_truth ? ",-1,1,-1" : ",-1,-1,-1"})) {}
+          {.decimals = kDecimals, .end_of_row = is_truth ? ",-1,1,-1" : ",-1,-1,-1"})),
+      is_truth_(is_truth) {}
 TrackWriter::~TrackWriter() = default;
 
 void TrackWriter::Add(Id id, const Detection& detection) {
   const Box& box = detection.box;
   const std::array<double, 5> values{box.left, box.top, std::max(box.width, kSmallestBox),
                                      std::max(box.height, kSmallestBox), detection.confidence};
-  writer_->Add(detection.frame, id, values);
+  std::string end_of_row;
+  if (is_truth_ && detection.visibility < 1) {
+    end_of_row = fmt::format(",-1,{:.4g},-1", detection.visibility);
+  }
+  writer_->Add(detection.frame, id, values, end_of_row);
 }
 
 void TrackWriter::Commit() { writer_->Commit(); }

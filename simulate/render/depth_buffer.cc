@@ -4,6 +4,7 @@
 #include "simulate/render/depth_buffer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "simulate/core/check.h"
@@ -120,7 +121,11 @@ void DepthBuffer::Draw(const std::array<ImageCorner, 3>& corner,
   }
   top_ = std::min(top_, first_v);
   bottom_ = std::max(bottom_, last_v + 1);
-  for (int k = first; k < last; ++k) {
+  // One sample alone is on every fourth line.
+  const bool is_single = std::has_single_bit(samples);
+  const int only = is_single ? std::countr_zero(samples) : 0;
+  const int start_k = is_single ? first + (only - first % kSamples + kSamples) % kSamples : first;
+  for (int k = start_k; k < last; k += is_single ? kSamples : 1) {
     const int v = k / kSamples, s = k % kSamples;
     if ((samples >> s & 1U) == 0) continue;
     const Vec2d& place = kPlace[static_cast<std::size_t>(s)];

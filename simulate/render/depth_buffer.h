@@ -43,6 +43,9 @@ class DepthBuffer {
   // As new.
   void Clear();
 
+  int width() const { return width_; }
+  int height() const { return height_; }
+
   // The pixels [first, last) of row v that may hold a surface.
   struct Range {
     int first, last;

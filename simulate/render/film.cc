@@ -47,6 +47,17 @@ class Turnstile {
   std::exception_ptr failure_;
 };
 
+Image Draw(const FlockRenderer& renderer, const Flight& flight, const Scenery* scenery, int frame) {
+  const double time = flight.TimeOf(frame);
+  const std::vector<FlyingAnimal> animals = flight.At(frame);
+  if (scenery == nullptr) return renderer.Render(frame, time, animals);
+  Image image;
+  scenery->With(frame, time, [&](const Setting& setting) {
+    image = renderer.Render(frame, time, animals, setting);
+  });
+  return image;
+}
+
 }  // namespace
 
 void FilmTrajectories(const std::filesystem::path& path, const Trajectories& trajectories,
@@ -64,7 +75,7 @@ void FilmTrajectories(const std::filesystem::path& path, const Trajectories& tra
     try {
       for (int k = first; k < frames; k += threads) {
         const int frame = k + 1;
-        Image image = renderer.Render(frame, flight.TimeOf(frame), flight.At(frame));
+        Image image = Draw(renderer, flight, options.scenery, frame);
         const bool passed = turnstile.Pass(k, [&] {
           writer.Write(std::move(image));
           Report(progress, k + 1, frames);
@@ -81,6 +92,14 @@ void FilmTrajectories(const std::filesystem::path& path, const Trajectories& tra
   for (std::thread& other : others) other.join();
   turnstile.Rethrow();
   writer.Finish();
+}
+
+Image DrawFrame(const Trajectories& trajectories, std::span<const Animal> animals,
+                const Camera& camera, const RenderSpec& spec, const FilmOptions& options,
+                int frame) {
+  const Flight flight(trajectories, animals, camera, options.fps);
+  return Draw(FlockRenderer(camera, spec, options.fps, options.seed), flight, options.scenery,
+              frame);
 }
 
 }  // namespace flocklift

@@ -13,9 +13,11 @@
 
 #include "simulate/camera/camera.h"
 #include "simulate/core/animal.h"
+#include "simulate/core/image.h"
 #include "simulate/core/progress.h"
 #include "simulate/core/scene.h"
 #include "simulate/core/trajectory.h"
+#include "simulate/render/scenery.h"
 #include "simulate/render/video_writer.h"
 
 namespace flocklift {
@@ -26,6 +28,7 @@ struct FilmOptions {
   std::uint64_t seed = 1;  // of noise, clouds and plumage
   int threads = 0;  // that draw; 0: as many as the machine has. The bytes do not depend on it
   VideoOptions video = {};
+  const Scenery* scenery = nullptr;  // what stands around the animals; none
 };
 
 // Frame k of the film is frame k of the trajectories, from 1. Bodies as in Flight
@@ -34,6 +37,11 @@ struct FilmOptions {
 void FilmTrajectories(const std::filesystem::path& path, const Trajectories& trajectories,
                       std::span<const Animal> animals, const Camera& camera, const RenderSpec& spec,
                       const FilmOptions& options, const Progress& progress = {});
+
+// One frame of that film.
+Image DrawFrame(const Trajectories& trajectories, std::span<const Animal> animals,
+                const Camera& camera, const RenderSpec& spec, const FilmOptions& options,
+                int frame);
 
 }  // namespace flocklift
 

@@ -113,6 +113,15 @@ TEST(Tracks, OfTheTruthSayThatAllIsVisible) {
   EXPECT_EQ(ReadTracks(folder / "tracks.csv").tracklets[0].id, 3);
 }
 
+TEST(Tracks, OfTheTruthSayWhatObstaclesHide) {
+  const TemporaryFolder folder;
+  Tracks tracks = Parse("1,3,1,1,2,2\n");
+  tracks.tracklets[0].detections[0].visibility = 0.25;
+  WriteTrueTracks(folder / "tracks.csv", tracks);
+  EXPECT_EQ(Contents(folder / "tracks.csv"), "1,3,1.0000,1.0000,2.0000,2.0000,1.0000,-1,0.25,-1\n");
+  EXPECT_EQ(ReadTracks(folder / "tracks.csv").tracklets[0].id, 3);
+}
+
 TEST(Tracks, TinyBoxesStayPositive) {
   const TemporaryFolder folder;
   WriteTracks(folder / "tracks.csv", Parse("1,1,1,1,1e-7,1e-7\n"));
