@@ -5,20 +5,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
-#include "simulate/camera/camera.h"
 #include "simulate/camera/camera_io.h"
 #include "simulate/core/check.h"
 #include "simulate/core/io.h"
-#include "simulate/core/rigid3.h"
 #include "simulate/core/scene_io.h"
 #include "simulate/flock/force_types.h"
 #include "simulate/flock/model.h"
 #include "simulate/flock/simulate_scene.h"
 #include "simulate/render/film.h"
+#include "simulate/render/image_codec.h"
 #include "simulate/synthetic.h"
+#include "tools/scene_camera.h"
+#include "tools/size_text.h"
 #include "tools/stage.h"
 
 namespace flocklift {
@@ -42,19 +44,6 @@ void PrintModels() {
   for (const ModelInfo& model : Models()) PrintInfo(model);
   fmt::print("FORCE TERMS (type = NAME of a [[species.force]], added to the model's)\n\n");
   for (const ModelInfo& force : ForceTypes()) PrintInfo(force);
-}
-
-Camera CameraOf(const Scene& scene) {
-  const CameraSpec& spec = scene.camera;
-  Camera camera;
-  if (spec.file) {
-    camera = ReadCamera(*spec.file);
-  } else {
-    camera = PinholeCamera(spec.fov_deg, spec.width, spec.height);
-    camera.cam_from_world = LookAt(spec.position, spec.look_at);
-  }
-  camera.fps = scene.fps;
-  return camera;
 }
 
 // What a reconstruction may be told about the flock: the means over its animals and frames.
@@ -81,13 +70,20 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   Scene scene = ReadScene(command.scene);
   if (command.seed) scene.seed = *command.seed;
   if (common.fps) scene.fps = *common.fps;
-  const Camera camera = CameraOf(scene);
+  if (command.until) scene.duration = std::min(scene.duration, *command.until);
+  Check(scene.FrameCount() > 0, "--until leaves no frame");
+  std::optional<std::pair<int, int>> size;
+  if (!command.size.empty()) size = ParseSize(command.size, "--size");
+  const Camera camera = SceneCamera(scene, size);
 
   Stage stage("simulate", common);
   stage.options() = OptionsAsJson(command.video);
   stage.options()["seed"] = scene.seed;
   stage.options()["fps"] = scene.fps;
   stage.options()["video"] = !command.no_video;
+  stage.options()["still"] = command.still;
+  stage.options()["duration"] = scene.duration;
+  stage.options()["size"] = fmt::format("{}x{}", camera.width, camera.height);
   stage.AddInput(command.scene);
   if (scene.camera.file) stage.AddInput(*scene.camera.file);
   for (const ObstacleSpec& obstacle : scene.obstacles) {
@@ -100,6 +96,7 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
     stage.AddOutput(output);
   }
   if (!command.no_video) stage.AddOutput("video.mp4");
+  if (command.still) stage.AddOutput("still.png");
   if (stage.IsUpToDate()) return;
 
   const Progress step_progress = stage.BeginPhase("record");
@@ -112,20 +109,24 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   stage.BeginPhase("observe");
   const Tracks tracks =
       SynthesizeTracks(result.truth, result.animals, camera, scene.fps, common.ThreadCount());
+  const FilmOptions film{.fps = scene.fps,
+                         .frames = scene.FrameCount(),
+                         .seed = scene.seed,
+                         .threads = common.ThreadCount(),
+                         .video = command.video};
   if (!command.no_video) {
     const Progress film_progress = stage.BeginPhase("film");
     FilmTrajectories(common.out / "video.mp4", result.truth, result.animals, camera, scene.render,
-                     {.fps = scene.fps,
-                      .frames = scene.FrameCount(),
-                      .seed = scene.seed,
-                      .threads = common.ThreadCount(),
-                      .video = command.video},
-                     film_progress);
+                     film, film_progress);
   }
   stage.BeginPhase("write", "files");
   WriteTrajectories(common.out / "trajectories.csv", result.truth);
   WriteTrueTracks(common.out / "tracks_true.csv", tracks);
   WriteCamera(common.out / "camera.yaml", camera);
+  if (command.still) {
+    WritePng(common.out / "still.png", DrawFrame(result.truth, result.animals, camera, scene.render,
+                                                 film, scene.FrameCount()));
+  }
   stage.EndPhase();
 
   stage.figures() = {{"agents", result.agents},
@@ -144,12 +145,16 @@ void AddSimulateCommand(CLI::App& app) {
       "Examples:\n"
       "  flocklift simulate data_synthetic/demo.toml --out truth\n"
       "  flocklift simulate scene.toml --no-video --seed 7 --out truth\n"
+      "  flocklift simulate scene.toml --no-video --still --until 3 --size 640x360 --out look\n"
       "  flocklift simulate --list",
       {.fps = true}, &RunSimulate, &command);
   auto* scene = sub->add_option("scene", command->scene,
                                 "a scene file (TOML; data_synthetic/README.md describes it)");
   sub->add_option("--seed", command->seed, "of all random numbers, instead of the scene's");
   sub->add_flag("--no-video", command->no_video, "write no video.mp4");
+  sub->add_flag("--still", command->still, "write still.png, the last frame of the film");
+  sub->add_option("--until", command->until, "end the scene after so many seconds");
+  sub->add_option("--size", command->size, "of the image in pixels, WIDTHxHEIGHT: the same view");
   sub->add_flag("--list", command->list,
                 "name the models, force terms and their parameters with units and defaults")
       ->excludes(scene);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// flocklift simulate SCENE: trajectories.csv, tracks_true.csv, camera.yaml, video.mp4.
+// flocklift simulate SCENE: trajectories.csv, tracks_true.csv, camera.yaml, video.mp4, still.png.
 
 #ifndef FLOCKLIFT_TOOLS_SIMULATE_COMMAND_H_
 #define FLOCKLIFT_TOOLS_SIMULATE_COMMAND_H_
@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "simulate/render/video_writer.h"
 #include "tools/command.h"
@@ -19,7 +20,10 @@ struct SimulateCommand {
   std::filesystem::path scene;
   std::optional<std::uint64_t> seed;  // overrides the scene's
   bool no_video = false;
-  bool list = false;  // name the models and their parameters instead
+  bool still = false;           // still.png: the last frame
+  std::optional<double> until;  // ends the scene earlier [s]
+  std::string size;             // "WIDTHxHEIGHT" instead of the camera's; empty: the camera's
+  bool list = false;            // name the models and their parameters instead
   VideoOptions video;
 };
 

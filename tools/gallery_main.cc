@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// flocklift_gallery PAPERS.csv SHEET.png RUN...: the second half of tools/gallery. Writes the
+// contact sheet, and the table on standard output.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <vector>
+
+#include "simulate/render/image_codec.h"
+#include "tools/gallery_sheet.h"
+
+int main(int argc, char** argv) {
+  constexpr int kColumns = 3;
+  try {
+    if (argc < 4) {
+      fmt::print(stderr, "usage: flocklift_gallery PAPERS.csv SHEET.png RUN...\n");
+      return 2;
+    }
+    const auto papers = flocklift::ReadPaperFigures(argv[1]);
+    std::vector<flocklift::GalleryEntry> entries;
+    for (int k = 3; k < argc; ++k) {
+      const std::filesystem::path folder = argv[k];
+      auto& entry =
+          entries.emplace_back(flocklift::ReadGalleryEntry(folder, folder.filename().string()));
+      for (const auto& paper : papers) {
+        if (paper.name != entry.name) continue;
+        entry.paper_rate = paper.rate;
+        entry.paper_mde = paper.mde;
+      }
+    }
+    flocklift::WritePng(argv[2], flocklift::ContactSheet(entries, kColumns));
+    fmt::print("{}", flocklift::GalleryTable(entries));
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "flocklift_gallery: {}\n", error.what());
+    return 2;
+  }
+  return 0;
+}
