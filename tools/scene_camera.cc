@@ -4,6 +4,7 @@
 #include "tools/scene_camera.h"
 
 #include "simulate/camera/camera_io.h"
+#include "simulate/camera/camera_path.h"
 #include "simulate/core/rigid3.h"
 
 namespace flocklift {
@@ -28,7 +29,11 @@ Camera SceneCamera(const Scene& scene, std::optional<std::pair<int, int>> size) 
     camera = ReadCamera(*spec.file);
   } else {
     camera = PinholeCamera(spec.fov_deg, spec.width, spec.height);
-    camera.cam_from_world = LookAt(spec.position, spec.look_at);
+    if (spec.path.empty()) {
+      camera.cam_from_world = LookAt(spec.position, spec.look_at);
+    } else {
+      camera.cam_from_world_per_frame = FollowKeys(spec.path, scene.fps, scene.FrameCount());
+    }
   }
   camera.fps = scene.fps;
   return size ? Resized(camera, size->first, size->second) : camera;

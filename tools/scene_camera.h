@@ -14,8 +14,8 @@
 
 namespace flocklift {
 
-// From the file or the keys of [camera]. With a `size` [px] the image is another one of the same
-// view: as wide an angle, and what is above and below follows.
+// From the file or the keys of [camera]; with a path, one pose for each frame. With a `size` [px]
+// the image is another one of the same view: as wide an angle, and what is above and below follows.
 Camera SceneCamera(const Scene& scene, std::optional<std::pair<int, int>> size = {});
 
 // The same view in another size: focal lengths, and the principal point's distance from the middle,

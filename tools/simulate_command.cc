@@ -20,6 +20,7 @@
 #include "simulate/render/image_codec.h"
 #include "simulate/synthetic.h"
 #include "tools/scene_camera.h"
+#include "tools/scene_scenery.h"
 #include "tools/size_text.h"
 #include "tools/stage.h"
 
@@ -106,14 +107,18 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   stage.EndPhase();
   stage.SplitPhase("prepare", result.prepare_wall_s, result.prepare_cpu_s);
   stage.SplitPhase("step", result.step_wall_s, result.step_cpu_s);
+  const Scenery obstacles = SceneObstacles(result.obstacles);
+  const Scenery scenery = SceneScenery(scene, result.obstacles);
   stage.BeginPhase("observe");
   const Tracks tracks =
-      SynthesizeTracks(result.truth, result.animals, camera, scene.fps, common.ThreadCount());
+      SynthesizeTracks(result.truth, result.animals, camera, scene.fps, common.ThreadCount(),
+                       scene.render.obstacles ? &obstacles : nullptr);
   const FilmOptions film{.fps = scene.fps,
                          .frames = scene.FrameCount(),
                          .seed = scene.seed,
                          .threads = common.ThreadCount(),
-                         .video = command.video};
+                         .video = command.video,
+                         .scenery = &scenery};
   if (!command.no_video) {
     const Progress film_progress = stage.BeginPhase("film");
     FilmTrajectories(common.out / "video.mp4", result.truth, result.animals, camera, scene.render,

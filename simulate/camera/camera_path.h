@@ -15,14 +15,11 @@
 #include <vector>
 
 #include "simulate/core/rigid3.h"
-#include "simulate/core/vec3.h"
+#include "simulate/core/scene.h"
 
 namespace flocklift {
 
-struct CameraKey {
-  double time = 0;          // [s]
-  Vec3d position, look_at;  // world [m]
-};
+using CameraKey = CameraSpec::Pose;
 
 // Where the camera is at `time`; the first or last key outside their times. There must be a key,
 // and times must increase.

@@ -38,5 +38,18 @@ TEST(SceneCameraTest, AnotherSizeShowsTheSameView) {
   }
 }
 
+TEST(SceneCameraTest, APathHasAPoseForEachFrame) {
+  Scene scene;
+  scene.fps = 10;
+  scene.duration = 3;
+  scene.camera.path = {{0, {0, -20, 2}, {0, 0, 5}}, {2, {20, 0, 2}, {0, 0, 5}}};
+  const Camera camera = SceneCamera(scene);
+  ASSERT_EQ(camera.cam_from_world_per_frame.size(), 30U);
+  EXPECT_TRUE(camera.KnowsGravity());
+  EXPECT_EQ(camera.CamFromWorld(1), LookAt({0, -20, 2}, {0, 0, 5}));
+  EXPECT_EQ(camera.CamFromWorld(30), LookAt({20, 0, 2}, {0, 0, 5}));
+  EXPECT_NE(camera.CamFromWorld(11), camera.CamFromWorld(12));
+}
+
 }  // namespace
 }  // namespace flocklift
