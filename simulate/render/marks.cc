@@ -186,8 +186,8 @@ void AddStroke(const Stroke& stroke, const Camera& camera, const Rigid3d& cam_fr
   for (Patch& piece : pieces) patches->push_back(std::move(piece));
 }
 
-void AddBall(const Ball& ball, const Camera& camera, const Rigid3d& cam_from_world, double haze,
-             std::vector<Patch>* patches) {
+void AddBall(const TintedBall& ball, const Camera& camera, const Rigid3d& cam_from_world,
+             double haze, std::vector<Patch>* patches) {
   const Vec3d center = cam_from_world * ball.center;
   const double distance = Norm(center), radius = ball.radius;
   if (!(radius > 0) || !(center.z - radius > kNear)) return;

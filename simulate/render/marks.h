@@ -29,7 +29,7 @@ struct Stroke {
 };
 
 // Seen as the disc inside its outline, at the depth of its outline.
-struct Ball {
+struct TintedBall {
   Vec3d center;  // world [m]
   double radius = 1;
   Color color;
@@ -60,8 +60,8 @@ using LineCover = std::vector<float>;
 void AddStroke(const Stroke& stroke, const Camera& camera, const Rigid3d& cam_from_world,
                double haze, LineCover* cover, std::vector<Patch>* patches);
 // Nothing when the camera is inside the ball, or the ball reaches behind the camera.
-void AddBall(const Ball& ball, const Camera& camera, const Rigid3d& cam_from_world, double haze,
-             std::vector<Patch>* patches);
+void AddBall(const TintedBall& ball, const Camera& camera, const Rigid3d& cam_from_world,
+             double haze, std::vector<Patch>* patches);
 
 }  // namespace flocklift
 

@@ -210,7 +210,7 @@ Image FlockRenderer::Render(int frame, double time, std::span<const FlyingAnimal
   for (const Stroke& stroke : setting.strokes) {
     AddStroke(stroke, camera_, cam_from_world, spec_.haze, &bench->line_cover, &patches);
   }
-  for (const Ball& ball : setting.balls) {
+  for (const TintedBall& ball : setting.balls) {
     AddBall(ball, camera_, cam_from_world, spec_.haze, &patches);
   }
   Sketch(animals, frame, time, cam_from_world, &patches, bench.get());

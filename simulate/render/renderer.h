@@ -34,7 +34,7 @@ namespace flocklift {
 struct Setting {
   std::span<const Surface> surfaces;
   std::span<const Stroke> strokes;
-  std::span<const Ball> balls;
+  std::span<const TintedBall> balls;
 };
 
 class FlockRenderer {

@@ -76,7 +76,7 @@ void Scenery::WithSurfaces(int frame,
 
 void Scenery::With(int frame, double time, const std::function<void(const Setting&)>& use) const {
   std::vector<Stroke> strokes = strokes_;
-  std::vector<Ball> balls;
+  std::vector<TintedBall> balls;
   for (const Goal& goal : goals_) {
     const Vec3d center = goal.center_at(time);
     balls.push_back({.center = center, .radius = goal.radius, .color = kGoalColor, .opacity = 0.2});

@@ -101,7 +101,7 @@ TEST(MarksTest, ALineIsBentByTheLens) {
 }
 
 TEST(MarksTest, ABallHasTheAreaOfItsOutline) {
-  const Ball ball{.center = {0.3, -0.2, 8}, .radius = 1.5, .color = {}, .opacity = 0.5};
+  const TintedBall ball{.center = {0.3, -0.2, 8}, .radius = 1.5, .color = {}, .opacity = 0.5};
   std::vector<Patch> patches;
   AddBall(ball, kCamera, {}, 0, &patches);
   ASSERT_EQ(patches.size(), 1U);
@@ -124,7 +124,7 @@ TEST(MarksTest, ABallHasTheAreaOfItsOutline) {
 
 TEST(MarksTest, HazeTakesContrast) {
   std::vector<Patch> patches;
-  const Ball ball{.center = {0, 0, 40}, .radius = 0.1, .color = {}, .opacity = 0.5};
+  const TintedBall ball{.center = {0, 0, 40}, .radius = 0.1, .color = {}, .opacity = 0.5};
   AddBall(ball, kCamera, {}, 20, &patches);
   EXPECT_NEAR(patches.at(0).paint.opacity, 0.5 * std::exp(-2.0), 1e-4);
 }

@@ -321,7 +321,7 @@ TEST(RendererTest, OneFrameLeavesNothingForTheNext) {
   const FlockRenderer used(camera, {}, 30, 1), fresh(camera, {}, 30, 1);
   const Wall wall;
   const Stroke line{.points = {{-5, 0, 15}, {5, 1, 25}}, .color = {0, 0, 255}};
-  const Ball ball{.center = {3, 0, 18}, .radius = 2, .color = {0, 200, 0}};
+  const TintedBall ball{.center = {3, 0, 18}, .radius = 2, .color = {0, 200, 0}};
   const Setting setting{.surfaces = {&wall.surface, 1}, .strokes = {&line, 1}, .balls = {&ball, 1}};
   const FlyingAnimal bird = BirdAt(camera, {90, 60}, 20, 30, {1, 0, 0});
   const Image first = used.Render(1, 0, {&bird, 1}, setting);
@@ -334,7 +334,7 @@ TEST(RendererTest, LinesAndBallsAreHiddenByObstacles) {
   const FlockRenderer renderer(camera, Clean(), 30, 1);
   const Wall wall;
   const Stroke line{.points = {{-10, 0, 30}, {10, 0, 30}}, .color = {0, 0, 255}, .width_px = 3};
-  const Ball ball{.center = {0, 3, 40}, .radius = 3, .color = {0, 200, 0}, .opacity = 0.5};
+  const TintedBall ball{.center = {0, 3, 40}, .radius = 3, .color = {0, 200, 0}, .opacity = 0.5};
   const Setting bare{.surfaces = {&wall.surface, 1}, .strokes = {}, .balls = {}};
   const Setting marked{.surfaces = {&wall.surface, 1}, .strokes = {&line, 1}, .balls = {&ball, 1}};
   const Image without = renderer.Render(1, 0, {}, bare), with = renderer.Render(1, 0, {}, marked);
