@@ -69,6 +69,10 @@ std::vector<Walker> Near(std::span<const Solid> solids, const Vec3d& centre, dou
   std::erase_if(walkers, [&](const Walker& walker) {
     return walker.AtLeast(centre) > std::max(nearest + 2 * radius, radius);
   });
+  // The nearest first: it spares the search in others.
+  std::stable_sort(walkers.begin(), walkers.end(), [&](const Walker& a, const Walker& b) {
+    return a.AtLeast(centre) < b.AtLeast(centre);
+  });
   return walkers;
 }
 
