@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -81,36 +82,63 @@ MeshDistance::MeshDistance(const TriangleMesh& mesh) {
     centres[t] = face.a + (face.ab + face.ac) / 3.0;
   }
 
-  // Every edge has two sides, one in each direction; they are found by sorting.
-  rims_.resize(count);
-  std::vector<Vec3d> vertex_normals(mesh.vertices.size());
-  std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> sides;
-  for (std::uint32_t t = 0; t < count; ++t) {
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      const std::uint32_t from = mesh.triangles[t][c], to = mesh.triangles[t][(c + 1) % 3];
-      const Vec3d u = mesh.vertices[to] - mesh.vertices[from];
-      const Vec3d v = mesh.Corner(t, (c + 2) % 3) - mesh.vertices[from];
-      vertex_normals[from] += std::atan2(Norm(Cross(u, v)), Dot(u, v)) * faces_[t].normal;
-      sides.push_back({{std::min(from, to), std::max(from, to)}, 3 * t + c});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  for (std::size_t k = 0; k < sides.size(); k += 2) {
-    const std::uint32_t one = sides[k].second, two = sides[k + 1].second;
-    const Vec3d normal = faces_[one / 3].normal + faces_[two / 3].normal;
-    rims_[one / 3].side[one % 3] = rims_[two / 3].side[two % 3] = normal;
-  }
-  for (std::uint32_t t = 0; t < count; ++t) {
-    for (std::uint32_t c = 0; c < 3; ++c) {
-      rims_[t].corner[c] = vertex_normals[mesh.triangles[t][c]];
-    }
-  }
-
+  FindRims(mesh);
   nodes_.reserve(2 * (count / 2) + 1);
   nodes_.push_back({{}, {}, 0, count});
   Split(0, &centres);
   slot_.resize(count);
   for (std::uint32_t k = 0; k < count; ++k) slot_[faces_[k].triangle] = k;
+}
+
+// The two sides of every edge are found by sorting. They join the corners at their ends to the ring
+// of triangles round a vertex; a vertex where surfaces touch has several rings.
+void MeshDistance::FindRims(const TriangleMesh& mesh) {
+  const auto corners = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+  const auto vertex = [&mesh](std::uint32_t corner) {
+    return mesh.triangles[corner / 3][corner % 3];
+  };
+  const auto next = [](std::uint32_t corner) { return corner - corner % 3 + (corner + 1) % 3; };
+  std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> sides;
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    const std::uint32_t from = vertex(c), to = vertex(next(c));
+    sides.push_back({{std::min(from, to), std::max(from, to)}, c});
+  }
+  std::sort(sides.begin(), sides.end());
+
+  rims_.resize(mesh.triangles.size());
+  std::vector<std::uint32_t> ring(corners);  // a corner farther on; the last of a ring itself
+  std::iota(ring.begin(), ring.end(), 0U);
+  const auto last = [&ring](std::uint32_t corner) {
+    while (ring[corner] != corner) corner = ring[corner] = ring[ring[corner]];
+    return corner;
+  };
+  for (std::size_t k = 0; k < sides.size(); k += 2) {
+    const std::uint32_t one = sides[k].second, two = sides[k + 1].second;
+    rims_[one / 3].side[one % 3] = rims_[two / 3].side[two % 3] =
+        faces_[one / 3].normal + faces_[two / 3].normal;
+    ring[last(one)] = last(next(two));
+    ring[last(next(one))] = last(two);
+  }
+
+  std::vector<Vec3d> normals(corners);  // of a ring, at its last corner
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    const Vec3d& here = mesh.vertices[vertex(c)];
+    const Vec3d u = mesh.vertices[vertex(next(c))] - here;
+    const Vec3d v = mesh.vertices[vertex(next(next(c)))] - here;
+    normals[last(c)] += std::atan2(Norm(Cross(u, v)), Dot(u, v)) * faces_[c / 3].normal;
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rings;  // vertex, last corner
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    rims_[c / 3].corner[c % 3] = normals[last(c)];
+    if (last(c) == c) rings.emplace_back(vertex(c), c);
+  }
+  std::sort(rings.begin(), rings.end());
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    for (auto other = std::lower_bound(rings.begin(), rings.end(), std::pair{vertex(c), 0U});
+         other != rings.end() && other->first == vertex(c); ++other) {
+      if (other->second != last(c)) touching_.emplace_back(c, normals[other->second]);
+    }
+  }
 }
 
 // Halves a node's triangles along the longest side of their centres' box, until few are left.
@@ -186,6 +214,20 @@ SurfacePoint MeshDistance::Closest(const Vec3d& point, std::uint32_t hint) const
   }
 }
 
+// The normal of a vertex for a point `away` from it: of the surface that the triangle belongs to,
+// or of one that touches it there and has the point inside.
+Vec3d MeshDistance::CornerNormal(std::uint32_t triangle, std::size_t corner,
+                                 const Vec3d& away) const {
+  const auto at = static_cast<std::uint32_t>(3 * triangle + corner);
+  const auto first = std::lower_bound(
+      touching_.begin(), touching_.end(), at,
+      [](const auto& other, std::uint32_t number) { return other.first < number; });
+  for (auto other = first; other != touching_.end() && other->first == at; ++other) {
+    if (Dot(other->second, away) < 0) return other->second;
+  }
+  return rims_[triangle].corner[corner];
+}
+
 // Distance, foot and normal for the triangle that is known to be nearest.
 SurfacePoint MeshDistance::Resolve(const Vec3d& point, const Face& face) const {
   SurfacePoint result;
@@ -200,7 +242,6 @@ SurfacePoint MeshDistance::Resolve(const Vec3d& point, const Face& face) const {
     result.normal = face.normal;
     return result;
   }
-  const Rim& rim = rims_[face.triangle];
   const std::array<Vec3d, 3> corner = {Vec3d{}, face.ab, face.ac};
   const std::array<bool, 3> beyond = {t<0, s + t> 1, s < 0};  // side k starts at corner k
   double best = std::numeric_limits<double>::infinity();
@@ -214,7 +255,9 @@ SurfacePoint MeshDistance::Resolve(const Vec3d& point, const Face& face) const {
     if (squared >= best) continue;
     best = squared;
     result.position = face.a + foot;
-    result.normal = along <= 0 ? rim.corner[k] : along >= 1 ? rim.corner[next] : rim.side[k];
+    result.normal = along <= 0   ? CornerNormal(face.triangle, k, p - foot)
+                    : along >= 1 ? CornerNormal(face.triangle, next, p - foot)
+                                 : rims_[face.triangle].side[k];
   }
   result.normal = Normalized(result.normal);
   result.distance = std::copysign(std::sqrt(best), Dot(result.normal, point - result.position));

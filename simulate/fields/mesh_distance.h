@@ -5,15 +5,17 @@
 //   phi(p) = s |p - c|,  c the point of the surface nearest to p,  s = sign(n . (p - c)),
 // positive outside. n is the normal of what c lies on: of a face; of an edge, the sum of its two
 // faces' normals; of a vertex, the sum over its faces of the normal times the angle there, which
-// makes the sign right wherever c is. J. A. Baerentzen, H. Aanaes, "Signed distance computation
-// using the angle weighted pseudonormal", IEEE TVCG 11 (2005) 243-253.
-// A tree of bounding boxes finds c: logarithmic in triangles near the surface.
+// makes the sign right wherever c is. (Where surfaces touch at a vertex each has its own, and p is
+// inside when it is so for any of them: solids that touch, not cavities.) J. A. Baerentzen, H.
+// Aanaes, "Signed distance computation using the angle weighted pseudonormal", IEEE TVCG 11 (2005)
+// 243-253. A tree of bounding boxes finds c: logarithmic in triangles near the surface.
 
 #ifndef FLOCKLIFT_SIMULATE_FIELDS_MESH_DISTANCE_H_
 #define FLOCKLIFT_SIMULATE_FIELDS_MESH_DISTANCE_H_
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "simulate/core/triangle_mesh.h"
@@ -65,12 +67,16 @@ class MeshDistance {
   };
 
   void Split(std::uint32_t node, std::vector<Vec3d>* centres);
+  void FindRims(const TriangleMesh& mesh);
+  Vec3d CornerNormal(std::uint32_t triangle, std::size_t corner, const Vec3d& away) const;
   SurfacePoint Resolve(const Vec3d& point, const Face& face) const;
 
   std::vector<Node> nodes_;
   std::vector<Face> faces_;          // by leaf
   std::vector<std::uint32_t> slot_;  // of a triangle in faces_
   std::vector<Rim> rims_;            // by triangle
+  // Where surfaces touch: every corner there, as 3 triangle + corner, with another's normal.
+  std::vector<std::pair<std::uint32_t, Vec3d>> touching_;  // sorted by corner
 };
 
 }  // namespace flocklift

@@ -75,34 +75,6 @@ std::optional<std::string> EdgeFault(const TriangleMesh& mesh) {
   return std::nullopt;
 }
 
-// Edges are right; a vertex where two surfaces touch has two rings of triangles.
-std::optional<std::string> RingFault(const TriangleMesh& mesh) {
-  // By vertex: each triangle's edge opposite to it leads from one neighbour to the next.
-  std::vector<std::uint32_t> start(mesh.vertices.size() + 2, 0);
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle) ++start[corner + 2];
-  }
-  for (std::size_t k = 2; k < start.size(); ++k) start[k] += start[k - 1];
-  std::vector<std::array<std::uint32_t, 2>> opposite(3 * mesh.triangles.size());
-  for (const auto& triangle : mesh.triangles) {
-    for (int c = 0; c < 3; ++c) {
-      opposite[start[triangle[c] + 1]++] = {triangle[(c + 1) % 3], triangle[(c + 2) % 3]};
-    }
-  }
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const auto first = opposite.begin() + start[v], last = opposite.begin() + start[v + 1];
-    if (first == last) continue;
-    std::size_t ring = 1;
-    for (std::uint32_t at = (*first)[1]; at != (*first)[0]; ++ring) {
-      at = (*std::find_if(first, last, [at](const auto& edge) { return edge[0] == at; }))[1];
-    }
-    if (ring != static_cast<std::size_t>(last - first)) {
-      return "two surfaces touch at vertex " + std::to_string(v);
-    }
-  }
-  return std::nullopt;
-}
-
 std::optional<std::string> VolumeFault(const TriangleMesh& mesh) {
   double six_volumes = 0;
   const Vec3d origin = mesh.Corner(0, 0);
@@ -117,7 +89,7 @@ std::optional<std::string> VolumeFault(const TriangleMesh& mesh) {
 }  // namespace
 
 std::optional<std::string> SurfaceFault(const TriangleMesh& mesh) {
-  for (const auto& fault_of : {CornerFault, EdgeFault, RingFault, VolumeFault}) {
+  for (const auto& fault_of : {CornerFault, EdgeFault, VolumeFault}) {
     if (const auto fault = fault_of(mesh)) return fault;
   }
   return std::nullopt;

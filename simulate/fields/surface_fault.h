@@ -17,8 +17,8 @@ namespace flocklift {
 // The first thing that keeps `mesh` from being the boundary of a solid, in a few words for an
 // InputError ("the edge between vertices 3 and 7 belongs to one triangle only"; triangles and
 // vertices count from 0); nothing when it is one. Every edge must belong to two triangles that run
-// along it in opposite directions, the triangles round a vertex must form one ring, every triangle
-// needs an area, and the volume must be positive. Several surfaces are allowed (a hollow ball).
+// along it in opposite directions, every triangle needs an area, and the volume must be positive.
+// Several surfaces are allowed (a hollow ball), and they may touch at vertices.
 std::optional<std::string> SurfaceFault(const TriangleMesh& mesh);
 
 }  // namespace flocklift

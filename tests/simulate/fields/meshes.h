@@ -6,6 +6,7 @@
 #ifndef FLOCKLIFT_TESTS_SIMULATE_FIELDS_MESHES_H_
 #define FLOCKLIFT_TESTS_SIMULATE_FIELDS_MESHES_H_
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -94,6 +95,26 @@ inline void Append(const TriangleMesh& other, TriangleMesh* mesh) {
   }
 }
 
+// A cube whose top is a pit down to its middle, and a pyramid that stands in the pit on its tip:
+// two surfaces with one vertex in common, which is nearest to points inside the cube.
+inline TriangleMesh KissingMesh() {
+  TriangleMesh mesh = BoxMesh({-1, -1, -1}, {1, 1, 1});
+  std::erase_if(mesh.triangles, [](const auto& t) { return t[0] >= 4 && t[1] >= 4 && t[2] >= 4; });
+  mesh.vertices.push_back({0, 0, 0});
+  const auto cone = [&mesh](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    const std::uint32_t tip = 8;
+    for (const auto& t : {std::array{a, b, tip}, {b, d, tip}, {d, c, tip}, {c, a, tip}}) {
+      mesh.triangles.push_back(t);
+    }
+  };
+  cone(4, 5, 6, 7);
+  const double w = 0.2, h = 0.8;
+  mesh.vertices.insert(mesh.vertices.end(), {{-w, -w, h}, {w, -w, h}, {-w, w, h}, {w, w, h}});
+  cone(10, 9, 12, 11);  // a different way round
+  mesh.triangles.insert(mesh.triangles.end(), {{9, 10, 11}, {10, 12, 11}});
+  return mesh;
+}
+
 // Turned inside out: the wall of a cavity.
 inline TriangleMesh Inverted(TriangleMesh mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -120,6 +141,7 @@ inline std::vector<NamedMesh> ManyMeshes() {
   TriangleMesh two = BoxMesh({-1.5, -1, -1}, {-0.2, 1, 1});
   Append(BoxMesh({0.2, -1, -1}, {1.5, 1, 1}), &two);
   meshes.push_back({"two boxes", two});
+  meshes.push_back({"kissing", KissingMesh()});
   return meshes;
 }
 
