@@ -150,12 +150,13 @@ class SwarmMotion final : public Motion<T> {
         goals_, pool != nullptr ? pool->threads() : 1);
   }
 
-  // The cost follows a goal that has moved by half a cell.
+  // The cost follows a goal that has moved by half a cell, or half of its own reach.
   void FollowGoals(const Surroundings& around) {
     const std::vector<GoalSpec> now = OwnGoals(around.goals);
     bool moved = false;
     for (std::size_t k = 0; k < goals_.size(); ++k) {
-      moved |= Norm(now[k].position - goals_[k].position) > 0.5 * p_.cell;
+      moved |=
+          Norm(now[k].position - goals_[k].position) > 0.5 * std::max(p_.cell, goals_[k].reach);
     }
     if (!moved) return;
     goals_ = now;
