@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t kGrain = 2048;         // animals a chunk of work
 constexpr double kCellPerReach = 1.05;        // half a cell against the largest distance; round-off
-constexpr std::size_t kCellsPerAnimal = 32;   // of the first table
+constexpr std::size_t kCellsPerAnimal = 16;   // of the first table
 constexpr std::size_t kBucketsPerAnimal = 4;  // of the second
 constexpr std::uint32_t kAcrossY = 0x9E3779B1U, kAcrossZ = 0x85EBCA77U;  // odd; along x: 1
 
@@ -24,9 +24,12 @@ std::uint32_t TableSize(std::size_t least) {
   return static_cast<std::uint32_t>(std::bit_ceil(std::max<std::size_t>(least, 64)));
 }
 
-// The second table is small: all bits of the address count.
-std::uint32_t Bucket(std::uint32_t address, std::uint32_t mask) {
-  return (address * 0x2C1B3C6DU >> 12) & mask;
+// What the first table says of a cell that holds one animal: which of the cells that share its
+// entry it is, 1 to 127. An entry with several animals, of whichever cells, has kSeveral besides.
+constexpr std::uint8_t kSeveral = 128;
+std::uint8_t Tag(std::uint32_t cell) {
+  const std::uint32_t tag = cell >> 25;
+  return static_cast<std::uint8_t>(tag + (tag == 0 ? 1 : 0));
 }
 
 // The largest whole number below u. Far outside all animals are in one place; so is what is not a
@@ -39,11 +42,11 @@ std::uint32_t Floor(T u) {
   return static_cast<std::uint32_t>(cut - (static_cast<T>(cut) > kept ? 1 : 0));
 }
 
-// Where the cell of a place is in a table. `shift`, in cells, is taken off the place before: with
+// The number of the cell of a place. `shift`, in cells, is taken off the place before: with
 // 1/2 this is the lowest of the eight cells that hold all that may be too near, the others being
 // further by 1, kAcrossY, kAcrossZ and their sums.
 template <typename T>
-std::uint32_t Address(T x, T y, T z, T per_cell, T shift) {
+std::uint32_t Cell(T x, T y, T z, T per_cell, T shift) {
   return Floor(x * per_cell - shift) + Floor(y * per_cell - shift) * kAcrossY +
          Floor(z * per_cell - shift) * kAcrossZ;
 }
@@ -66,7 +69,7 @@ void MinimumDistance<T>::NumberCells(std::span<const Crowd<T>> crowds, T per_cel
                       static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(k));
                 }
                 for (; k < last; ++k) {
-                  to[k] = Address(crowd.x[k], crowd.y[k], crowd.z[k], per_cell, shift);
+                  to[k] = Cell(crowd.x[k], crowd.y[k], crowd.z[k], per_cell, shift);
                 }
               });
     to += crowd.size;
@@ -92,45 +95,65 @@ void MinimumDistance<T>::Gather(std::span<const Crowd<T>> crowds, ThreadPool* po
 }
 
 template <typename T>
-void MinimumDistance<T>::Count(ThreadPool* pool) {
-  const std::uint32_t cells = TableSize(kCellsPerAnimal * places_.size()), mask = cells - 1;
-  counts_.resize(cells + 1);
-  // Every thread looks at all animals and counts those of its part of the table.
+void MinimumDistance<T>::Enter(ThreadPool* pool) {
+  const std::uint32_t size = TableSize(kCellsPerAnimal * places_.size()), mask = size - 1;
+  entries_.resize(size + 1);
+  // Every thread looks at all animals and enters those of its part of the table.
   const std::uint32_t parts = std::bit_floor(static_cast<unsigned>(pool->threads()));
-  const int shift = std::countr_zero(cells / parts);
+  const int shift = std::countr_zero(size / parts);
   pool->For(0, parts, 1, [&](std::int64_t part, std::int64_t) {
-    std::uint8_t* const counts = counts_.data();
-    std::fill_n(counts + (part << shift), std::size_t{1} << shift, std::uint8_t{0});
+    std::uint8_t* const entries = entries_.data();
+    std::fill_n(entries + (part << shift), std::size_t{1} << shift, std::uint8_t{0});
     for (const std::uint32_t cell : cell_) {
-      const std::uint32_t address = cell & mask;
-      if (parts > 1 && address >> shift != static_cast<std::uint32_t>(part)) continue;
-      counts[address] = static_cast<std::uint8_t>(counts[address] + (counts[address] < 255));
+      const std::uint32_t at = cell & mask;
+      if (parts > 1 && at >> shift != static_cast<std::uint32_t>(part)) continue;
+      const std::uint8_t before = entries[at], tag = Tag(cell);
+      entries[at] = before == 0 ? tag : static_cast<std::uint8_t>(before | kSeveral);
     }
   });
-  counts_[cells] = counts_[0];  // so that two neighbours along x may always be read together
+  entries_[size] = entries_[0];  // so that two neighbours along x may always be read together
+}
+
+template <typename T>
+bool MinimumDistance<T>::HasCompany(std::uint32_t lowest) const {
+  const auto mask = static_cast<std::uint32_t>(entries_.size() - 2);
+  int seen = 0;
+  for (const std::uint32_t across : {0U, kAcrossY, kAcrossZ, kAcrossY + kAcrossZ}) {
+    for (const std::uint32_t cell : {lowest + across, lowest + across + 1}) {
+      const std::uint8_t entry = entries_[cell & mask];
+      seen += entry == Tag(cell) ? 1 : entry >= kSeveral ? 2 : 0;
+    }
+  }
+  return seen > 1;  // one is the animal itself
 }
 
 template <typename T>
 void MinimumDistance<T>::FindCompany(ThreadPool* pool) {
   const auto n = static_cast<std::int64_t>(places_.size());
-  const auto mask = static_cast<std::uint32_t>(counts_.size() - 2);
+  const auto mask = static_cast<std::uint32_t>(entries_.size() - 2);
   company_.resize(static_cast<std::size_t>((n + kGrain - 1) / kGrain));
   pool->For(0, n, kGrain, [&](std::int64_t first, std::int64_t last) {
-    const std::uint8_t* const counts = counts_.data();
+    const std::uint8_t* const entries = entries_.data();
     std::vector<std::uint32_t>& found = company_[static_cast<std::size_t>(first / kGrain)];
     found.resize(static_cast<std::size_t>(last - first));
+    // First those with anything at all in the eight entries but themselves, without branches.
     std::size_t count = 0;
     for (std::int64_t k = first; k < last; ++k) {
       const std::uint32_t lowest = cell_[k];
-      const auto row = [&](std::uint32_t across) {
-        const std::uint8_t* const at = counts + (mask & (lowest + across));
-        return at[0] + at[1];
+      const auto row = [&](std::uint32_t across) -> std::uint64_t {
+        const std::uint8_t* const at = entries + (mask & (lowest + across));
+        return at[0] | static_cast<std::uint64_t>(at[1]) << 8;
       };
-      const int all = row(0) + row(kAcrossY) + row(kAcrossZ) + row(kAcrossY + kAcrossZ);
+      const std::uint64_t all =
+          row(0) | row(kAcrossY) << 16 | row(kAcrossZ) << 32 | row(kAcrossY + kAcrossZ) << 48;
+      const std::uint64_t tops = 0x8080808080808080U, several = all & tops;
+      const std::uint64_t taken = (((all & ~tops) + ~tops) & tops) >> 7;  // a bit for each entry
       found[count] = static_cast<std::uint32_t>(k);
-      count += all > 1 ? 1 : 0;
+      count += (taken & (taken - 1)) != 0 || several != 0 ? 1 : 0;
     }
-    found.resize(count);
+    const auto alone = [this](std::uint32_t k) { return !HasCompany(cell_[k]); };
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(count);
+    found.erase(std::remove_if(found.begin(), end, alone), found.end());
   });
   crowded_.clear();
   for (const auto& found : company_) crowded_.insert(crowded_.end(), found.begin(), found.end());
@@ -144,7 +167,7 @@ void MinimumDistance<T>::Chain(T per_cell) {
   close_.resize(crowded_.size());
   for (std::size_t k = 0; k < crowded_.size(); ++k) {
     const Place p = places_[crowded_[k]];
-    const std::uint32_t bucket = Bucket(Address(p.x, p.y, p.z, per_cell, T(0)), buckets - 1);
+    const std::uint32_t bucket = Cell(p.x, p.y, p.z, per_cell, T(0)) & (buckets - 1);
     close_[k] = p;
     next_[k] = head_[bucket];
     head_[bucket] = static_cast<std::int32_t>(k);
@@ -152,16 +175,16 @@ void MinimumDistance<T>::Chain(T per_cell) {
 }
 
 template <typename T>
-Vec3<T> MinimumDistance<T>::Push(T per_cell, std::size_t self, bool* touched) const {
+Vec3<T> MinimumDistance<T>::Push(std::size_t self, bool* touched) const {
   const Place p = close_[self];
-  const std::uint32_t lowest = Address(p.x, p.y, p.z, per_cell, T(0.5));
+  const std::uint32_t lowest = cell_[crowded_[self]];
   const auto mask = static_cast<std::uint32_t>(head_.size() - 1);
   std::uint32_t buckets[8];
   int count = 0;
   Vec3<T> push{};
   for (std::uint32_t corner = 0; corner < 8; ++corner) {
-    const std::uint32_t bucket = Bucket(
-        lowest + (corner & 1) + (corner >> 1 & 1) * kAcrossY + (corner >> 2) * kAcrossZ, mask);
+    const std::uint32_t bucket =
+        mask & (lowest + (corner & 1) + (corner >> 1 & 1) * kAcrossY + (corner >> 2) * kAcrossZ);
     // Two cells may share a bucket; each is walked through once.
     if (head_[bucket] < 0 || std::find(buckets, buckets + count, bucket) != buckets + count) {
       continue;
@@ -196,7 +219,7 @@ std::int64_t MinimumDistance<T>::Enforce(std::span<const Crowd<T>> crowds, Threa
   if (!(most > 0) || places_.size() < 2) return 0;
   const T per_cell = T(1) / static_cast<T>(2 * kCellPerReach * 2 * static_cast<double>(most));
   NumberCells(crowds, per_cell, T(0), pool);
-  Count(pool);
+  Enter(pool);
   NumberCells(crowds, per_cell, T(0.5), pool);
   FindCompany(pool);
   Chain(per_cell);
@@ -207,7 +230,7 @@ std::int64_t MinimumDistance<T>::Enforce(std::span<const Crowd<T>> crowds, Threa
   pool->For(0, crowded, kGrain / 8, [&](std::int64_t first, std::int64_t last) {
     for (std::int64_t k = first; k < last; ++k) {
       bool touched = false;
-      push_[k] = Push(per_cell, static_cast<std::size_t>(k), &touched);
+      push_[k] = Push(static_cast<std::size_t>(k), &touched);
       touched_[k] = touched ? 1 : 0;
     }
   });

@@ -9,11 +9,12 @@
 // result does not depend on threads. Animals in the very same place part along x. One pass, as
 // published; in a crush some are still too near afterwards.
 //
-// Nearly all animals have nobody near. A table of how many animals fall on each of many cells of a
-// hashed lattice tells most of them from the rest by four look-ups; cells are wider than the
-// largest d_ij, so an animal's own cell and the nearer neighbour along each axis hold all that may
-// be too near. Only those with company go into a second, exact table. Linear in animals, whatever
-// the extent of the scene; one room far larger than the others makes it slow.
+// Nearly all animals have nobody near. A hashed table with a byte for every cell of a lattice tells
+// most of them from the rest: cells are wider than twice the largest d_ij, so an animal's own cell
+// and the nearer neighbours, eight in all, hold everybody who may be too near. Only those with
+// company go into a second, exact table. Linear in animals, whatever the extent of the scene, and
+// fastest when neighbours in space are neighbours in memory. One room far larger than the others
+// makes it slow.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_MINIMUM_DISTANCE_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_MINIMUM_DISTANCE_H_
@@ -50,14 +51,15 @@ class MinimumDistance {
 
   void Gather(std::span<const Crowd<T>> crowds, ThreadPool* pool);
   void NumberCells(std::span<const Crowd<T>> crowds, T per_cell, T shift, ThreadPool* pool);
-  void Count(ThreadPool* pool);
+  void Enter(ThreadPool* pool);
+  bool HasCompany(std::uint32_t lowest) const;
   void FindCompany(ThreadPool* pool);
   void Chain(T per_cell);
-  Vec3<T> Push(T per_cell, std::size_t self, bool* touched) const;
+  Vec3<T> Push(std::size_t self, bool* touched) const;
 
   std::vector<Place> places_;                        // of all animals
   std::vector<std::uint32_t> cell_;                  // of each animal, before it is hashed
-  std::vector<std::uint8_t> counts_;                 // animals by hashed cell, up to 255
+  std::vector<std::uint8_t> entries_;                // of the first table: who is in each cell
   std::vector<std::vector<std::uint32_t>> company_;  // those with company, by chunk of animals
   std::vector<std::uint32_t> crowded_;               // the same, all
   std::vector<Place> close_;                         // of crowded_
