@@ -61,6 +61,7 @@ void RegisterAll() {
     auto* const one = benchmark::RegisterBenchmark(("boids_step/" + kernel).c_str(), Step, kernel);
     one->ArgNames({"agents", "threads"})->Unit(benchmark::kMicrosecond);
     one->Args({10000, 1})->Args({100000, 1});
+    if (kernel != "scalar") one->Args({1000000, 1});
   }
   auto* const two = benchmark::RegisterBenchmark("boids_step/two_threads", Step, kernels.back());
   two->ArgNames({"agents", "threads"})->Unit(benchmark::kMicrosecond)->UseRealTime();
