@@ -14,7 +14,8 @@ namespace {
 constexpr int kMaxCellsPerAxis = 1024;
 constexpr double kMargin = 1.001;
 
-constexpr std::size_t kLeastChunk = 2048;  // animals, below which a thread is not worth its start
+// Animals, below which another thread is not worth waking.
+constexpr std::size_t kLeastChunk = 2048, kLeastBoxChunk = 32768;
 
 template <typename T>
 struct Extent {
@@ -67,15 +68,27 @@ struct Shares {
   }
 };
 
+// Of x, y and z.
 template <typename T>
-Extent<T> ExtentOf(const std::vector<T>& column, const Shares& shares, ThreadPool* pool) {
-  std::vector<Extent<T>> of(static_cast<std::size_t>(shares.count));
+struct Box {
+  Extent<T> x, y, z;
+};
+
+template <typename T>
+Extent<T> Join(const Extent<T>& a, const Extent<T>& b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
+
+template <typename T>
+Box<T> BoxOf(const Bodies<T>& bodies, const Shares& shares, ThreadPool* pool) {
+  std::vector<Box<T>> of(static_cast<std::size_t>(shares.count));
   shares.ForEach(pool, [&](std::size_t k, std::size_t first, std::size_t last) {
-    of[k] = ExtentOf(column, first, last);
+    of[k] = {ExtentOf(bodies.x, first, last), ExtentOf(bodies.y, first, last),
+             ExtentOf(bodies.z, first, last)};
   });
-  Extent<T> all = of[0];
-  for (const Extent<T>& extent : of) {
-    all = {std::min(all.low, extent.low), std::max(all.high, extent.high)};
+  Box<T> all = of[0];
+  for (const Box<T>& box : of) {
+    all = {Join(all.x, box.x), Join(all.y, box.y), Join(all.z, box.z)};
   }
   return all;
 }
@@ -95,11 +108,8 @@ void CellGrid<T>::Sort(const Bodies<T>& from, double reach, Bodies<T>* to, Threa
     const auto threads = static_cast<std::size_t>(pool != nullptr ? pool->threads() : 1);
     return Shares{n, static_cast<int>(std::max<std::size_t>(1, std::min(threads, most)))};
   };
-  const Shares shares_of_all = most_shares(n / kLeastChunk);
-  const Extent<T> x = ExtentOf(from.x, shares_of_all, pool),
-                  y = ExtentOf(from.y, shares_of_all, pool),
-                  z = ExtentOf(from.z, shares_of_all, pool);
-  ChooseCells({x.low, y.low, z.low}, {x.high, y.high, z.high}, reach, n);
+  const Box<T> box = BoxOf(from, most_shares(n / kLeastBoxChunk), pool);
+  ChooseCells({box.x.low, box.y.low, box.z.low}, {box.x.high, box.y.high, box.z.high}, reach, n);
 
   const View g = view();
   const auto along = [this](T offset, int count) {

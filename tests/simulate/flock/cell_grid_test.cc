@@ -104,7 +104,7 @@ TEST(CellGrid, EmptyFlock) {
 
 TEST(CellGrid, AnyNumberOfThreadsSortsTheSame) {
   std::vector<NamedFlock> flocks = ManyFlocks();
-  flocks.push_back(RandomFlock("large", 20000, {25, 30, 20}, 31));
+  flocks.push_back(RandomFlock("large", 70000, {40, 45, 40}, 31));
   flocks.push_back(RandomFlock("large and sparse", 20000, {400, 300, 500}, 32));
   for (const NamedFlock& flock : flocks) {
     SCOPED_TRACE(flock.name);
