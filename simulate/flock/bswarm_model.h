@@ -7,7 +7,9 @@
 //      + drive (speed to the goal - v)         goal-directed; without a goal along the own heading
 //      + escape: away from predators
 //      + curl noise as a force (equations.md, section 4), white or correlated noise, walls
-//   v* = limit(v + a dt, s_max),   v = v* | ORCA(v*)    (simulate/flock/orca.h),   x += v dt
+//   v* = limit(v + a dt, s_max),   v = v* or ORCA(v*)  (simulate/flock/orca.h),   x += v dt
+// or, instead of ORCA, minimum-distance enforcement after the move
+// (simulate/flock/minimum_distance.h).
 // The published papers give no numbers for all but the zones (Chen et al. 2019) and the noise.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_BSWARM_MODEL_H_
@@ -20,8 +22,8 @@
 
 namespace flocklift {
 
-inline constexpr std::string_view kAvoidances[] = {"none", "orca"};
-enum class Avoidance { kNone, kOrca };
+inline constexpr std::string_view kAvoidances[] = {"none", "orca", "distance"};
+enum class Avoidance { kNone, kOrca, kDistance };
 
 struct BSwarmParameters {
   ZoneParameters zones;
@@ -66,7 +68,9 @@ void Describe(Visitor& visit, BSwarmParameters& p) {
   visit("alpha_b", p.alpha_b, {.low = 0}, "m/s^2", "push of a wall on what is outside");
   visit("wall_taper", p.wall_taper, {.low = 0}, "m", "way over which a wall's push sets in");
   visit("s_max", p.s_max, {.low = 0}, "m/s", "highest speed");
-  visit("avoid", p.avoid, {}, "", "collision avoidance: velocity obstacles (orca), or none");
+  visit("avoid", p.avoid, {}, "",
+        "collision avoidance: velocity obstacles (orca), minimum-distance enforcement (distance), "
+        "none");
   visit("room", p.room, {.low = 0}, "m", "kept around the body by collision avoidance");
   visit("horizon", p.horizon, {.low = 1e-3}, "s", "within which no collision may come");
   visit("sight", p.sight, {.low = 0}, "m", "animals and obstacles nearer than this are avoided");

@@ -43,7 +43,7 @@ class BSwarmMotion final : public Motion<T> {
       wanted_[k] =
           SpeedLimit::Limit(limit, herd->now.Velocity(k) + F(around.dt()) * herd->Acceleration(k));
     });
-    if (p_.avoid.index == static_cast<int>(Avoidance::kOrca)) Avoid(around, pool, herd);
+    if (Avoids(Avoidance::kOrca)) Avoid(around, pool, herd);
     ForEachAnimal(*herd, pool, [&](std::size_t k) {
       const Vec3<T> v = Flattened(around.flat(), wanted_[k]);
       herd->now.Set(k, herd->now.Position(k) + F(around.dt()) * v, v);
@@ -52,6 +52,7 @@ class BSwarmMotion final : public Motion<T> {
   void Retune(const ModelParameters& parameters) override {
     p_ = std::get<BSwarmParameters>(parameters);
   }
+  Room room() const override { return Avoids(Avoidance::kDistance) ? Room{p_.room, 1.0} : Room{}; }
   void Save(StateWriter* out) const override {
     out->Put(noise_.state());
     forces_.Save(out);
@@ -67,6 +68,7 @@ class BSwarmMotion final : public Motion<T> {
     T neighbours;
   };
   static T F(double value) { return static_cast<T>(value); }
+  bool Avoids(Avoidance how) const { return p_.avoid.index == static_cast<int>(how); }
 
   // The three zones. With a sample, repulsion still hears everybody who is near: a pass of its own
   // in an order of its own, whose result is kept by animal.
@@ -163,8 +165,12 @@ class BSwarmMotion final : public Motion<T> {
                               .sight = p_.sight,
                               .most_neighbours = kMostAvoided};
     AddWalls walls;
-    if (!around.world->obstacles.empty()) {
+    if (around.flat() || !around.world->obstacles.empty()) {
       walls = [&](std::size_t k, std::vector<HalfSpace>* allowed) {
+        if (around.flat()) {  // neither up nor down
+          allowed->push_back({{}, {0, 0, 1}});
+          allowed->push_back({{}, {0, 0, -1}});
+        }
         AvoidObstacles(around, ToDouble(herd->now.Position(k)),
                        static_cast<double>(radius_[herd->now.agent[k]]), allowed);
       };

@@ -88,42 +88,47 @@ TEST(BSwarmMotion, SameBytesAtAnyThreadCountAndWithAnyKernel) {
   ExpectSameBytesEverywhere(p);
 }
 
-// Everybody to the middle: velocity obstacles keep them apart, without them they meet.
-TEST(BSwarmMotion, VelocityObstaclesKeepBodiesApart) {
-  const auto least = [](Avoidance avoid) {
-    World world;
-    world.dt = 1.0 / 60;
-    world.goals = {{.species = "", .position = {0, 0, 0}}};
-    BSwarmParameters p = Plain({0.1, 0.2, 0.3, 0, 0, 0, 0});
-    p.avoid.index = static_cast<int>(avoid);
-    p.drive = 2;
-    p.s_max = 1;
-    p.sight = 1;
-    p.horizon = 0.5;
-    Swarm swarm = AsSwarm(RandomFlock("", 60, {0, 0, 0}, 53), p);
-    Rng rng(54);
+// Everybody to the middle; how near any two come.
+double LeastDistance(Avoidance avoid, int dimensions) {
+  World world;
+  world.dt = 1.0 / 60;
+  world.dimensions = dimensions;
+  world.goals = {{.species = "", .position = {0, 0, 0}}};
+  BSwarmParameters p = Plain({0.1, 0.2, 0.3, 0, 0, 0, 0});
+  p.avoid.index = static_cast<int>(avoid);
+  p.drive = 2;
+  p.s_max = 1;
+  p.sight = 1;
+  p.horizon = 0.5;
+  Swarm swarm = AsSwarm(RandomFlock("", 60, {0, 0, 0}, 53), p);
+  Rng rng(54);
+  for (std::size_t k = 0; k < 60; ++k) {
+    const double turn = 2 * std::numbers::pi * static_cast<double>(k) / 60;
+    swarm.position[k] = {4 * std::cos(turn), 4 * std::sin(turn), 0.2 * rng.Normal()};
+    swarm.velocity[k] = -0.1 * swarm.position[k];
+  }
+  swarm.cruising_speed.assign(60, 0.8);
+  swarm.radius.assign(60, 0.1);
+  Engine engine(world, {swarm}, {});
+  double least = 1e9;
+  for (int step = 0; step < 400; ++step) {
+    engine.Step();
+    const FlockState state = engine.State();
     for (std::size_t k = 0; k < 60; ++k) {
-      const double turn = 2 * std::numbers::pi * static_cast<double>(k) / 60;
-      swarm.position[k] = {4 * std::cos(turn), 4 * std::sin(turn), 0.2 * rng.Normal()};
-      swarm.velocity[k] = -0.1 * swarm.position[k];
-    }
-    swarm.cruising_speed.assign(60, 0.8);
-    swarm.radius.assign(60, 0.1);
-    Engine engine(world, {swarm}, {});
-    double least = 1e9;
-    for (int step = 0; step < 400; ++step) {
-      engine.Step();
-      const FlockState state = engine.State();
-      for (std::size_t k = 0; k < 60; ++k) {
-        for (std::size_t j = 0; j < k; ++j) {
-          least = std::min(least, Norm(state.position[k] - state.position[j]));
-        }
+      for (std::size_t j = 0; j < k; ++j) {
+        least = std::min(least, Norm(state.position[k] - state.position[j]));
       }
     }
-    return least;
-  };
-  EXPECT_GT(least(Avoidance::kOrca), 0.2 * 0.97);
-  EXPECT_LT(least(Avoidance::kNone), 0.1);
+  }
+  return least;
+}
+
+TEST(BSwarmMotion, VelocityObstaclesKeepBodiesApart) {
+  EXPECT_GT(LeastDistance(Avoidance::kOrca, 3), 0.2 * 0.97);
+  EXPECT_GT(LeastDistance(Avoidance::kOrca, 2), 0.2 * 0.9);
+  const double left_alone = LeastDistance(Avoidance::kNone, 3);
+  EXPECT_LT(left_alone, 0.1);
+  EXPECT_GT(LeastDistance(Avoidance::kDistance, 3), left_alone);  // one pass a step, as published
 }
 
 TEST(BSwarmMotion, ObstaclesAreNotEntered) {
@@ -153,27 +158,35 @@ TEST(BSwarmMotion, ObstaclesAreNotEntered) {
   EXPECT_GT(way, 6);  // and they got past it
 }
 
-// Buhl et al. 2006: with density, noise loses to alignment.
+// Buhl et al. 2006: in one arena and at one noise, order comes with density.
 TEST(BSwarmMotion, OrderComesWithDensity) {
   const auto order = [](int count) {
-    BSwarmParameters p = Plain({0.1, 1, 1, 0, 3, 0, 0});
-    p.noise = 9;
-    p.drive = 4;
-    p.s_max = 1;
-    World world;
-    world.dt = 1.0 / 30;
-    Swarm swarm = AsSwarm(RandomFlock("", count, {6, 6, 6}, 56), p);
-    swarm.cruising_speed.assign(swarm.position.size(), 0.5);
-    Engine engine(world, {swarm}, {});
     double sum = 0;
-    for (int step = 0; step < 150; ++step) {
-      engine.Step();
-      if (step >= 50) sum += Polarization(engine.State()) / 100;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      BSwarmParameters p = Plain({0.1, 1, 1, 0, 3, 0, 0});
+      p.noise = 1.5;
+      p.drive = 4;
+      p.s_max = 1;
+      p.alpha_b = 3;
+      p.wall_taper = 1;
+      World world;
+      world.seed = seed;
+      world.dt = 1.0 / 30;
+      world.box = {{0, 0, 0}, {6, 6, 6}};
+      Swarm swarm = AsSwarm(RandomFlock("", count, {6, 6, 6}, 56 + seed), p);
+      swarm.cruising_speed.assign(swarm.position.size(), 0.5);
+      Engine engine(world, {swarm}, {});
+      for (int step = 0; step < 500; ++step) {
+        engine.Step();
+        if (step >= 200) sum += Polarization(engine.State()) / (3 * 300);
+      }
     }
     return sum;
   };
-  EXPECT_LT(order(40), 0.35);
-  EXPECT_GT(order(800), 0.6);
+  const double few = order(15), many = order(480);
+  EXPECT_LT(few, 0.6);
+  EXPECT_GT(many, 0.65);
+  EXPECT_GT(many, few + 0.2);
 }
 
 }  // namespace

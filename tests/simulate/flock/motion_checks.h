@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 #include "tests/simulate/flock/flocks.h"
 
@@ -22,28 +23,40 @@ inline double Polarization(const FlockState& state) {
 }
 
 // A flock among walls, a predator and a goal.
-inline FlockState FlyOf(const ModelParameters& model, int threads, const std::string& kernel,
-                        int steps = 12) {
+inline Engine BusyFlock(const ModelParameters& model, int threads = 1,
+                        const std::string& kernel = "") {
   World world;
   world.seed = 5;
   world.dt = 0.02;
   world.box = {{-5, -5, -5}, {15, 15, 15}};
   world.goals = {{.species = "bird", .position = {5, 5, 5}, .radius = 3, .period = 4, .weight = 1}};
   world.predators = {{.count = 1, .speed = 8, .fear_radius = 4, .fear_weight = 9}};
-  Engine engine(world, {AsSwarm(RandomFlock("", 2500, {14, 14, 14}, 42), model)},
+  return Engine(world, {AsSwarm(RandomFlock("", 1100, {12, 12, 12}, 42), model)},
                 {.threads = threads, .kernel = kernel});
+}
+
+inline FlockState After(Engine engine, int steps) {
   for (int step = 0; step < steps; ++step) engine.Step();
   return engine.State();
 }
 
+// At any number of threads, with any kernel, and after going on from a saved state.
 inline void ExpectSameBytesEverywhere(const ModelParameters& model) {
-  const FlockState expected = FlyOf(model, 1, "");
+  const FlockState expected = After(BusyFlock(model), 5);
+  const auto expect_same = [&expected](const FlockState& actual) {
+    EXPECT_EQ(actual.position, expected.position);
+    EXPECT_EQ(actual.velocity, expected.velocity);
+  };
   for (const auto& [threads, kernel] :
        {std::pair{2, ""}, std::pair{1, "scalar"}, std::pair{3, "sse2"}}) {
-    const FlockState actual = FlyOf(model, threads, kernel);
-    EXPECT_EQ(actual.position, expected.position) << threads << kernel;
-    EXPECT_EQ(actual.velocity, expected.velocity) << threads << kernel;
+    SCOPED_TRACE(std::to_string(threads) + " threads " + kernel);
+    expect_same(After(BusyFlock(model, threads, kernel), 5));
   }
+  SCOPED_TRACE("saved");
+  Engine first = BusyFlock(model), second = BusyFlock(model);
+  for (int step = 0; step < 3; ++step) first.Step();
+  second.Load(first.Save());
+  expect_same(After(std::move(second), 2));
 }
 
 }  // namespace flocklift
