@@ -7,17 +7,11 @@
 #include <cmath>
 #include <cstddef>
 
-// FLANN's templates convert between integers as they please.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#include <flann/flann.hpp>
-#pragma GCC diagnostic pop
-
 #include "simulate/core/check.h"
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/rng.h"
 #include "simulate/shapes/hilbert.h"
+#include "simulate/shapes/nearest.h"
 #include "simulate/shapes/surface_walk.h"
 
 namespace flocklift {
@@ -38,33 +32,6 @@ std::vector<Vec3d> Points(const TriangleMesh& mesh, const std::vector<SurfaceSam
     points.push_back(SamplePoint(mesh.vertices, mesh.triangles, s));
   }
   return points;
-}
-
-// For each point those nearer than `radius` by the Manhattan distance, itself left out.
-std::vector<std::vector<std::uint32_t>> ManhattanNeighbours(const std::vector<Vec3d>& points,
-                                                            double radius, ThreadPool* pool) {
-  std::vector<Vec3d> copy = points;  // FLANN wants to be able to write
-  const flann::Matrix<double> rows(&copy[0].x, points.size(), 3);
-  flann::KDTreeSingleIndex<flann::L1<double>> index(rows, flann::KDTreeSingleIndexParams(12));
-  index.buildIndex();
-  std::vector<std::vector<std::uint32_t>> neighbours(points.size());
-  pool->For(0, static_cast<std::int64_t>(points.size()), kGrain,
-            [&](std::int64_t first, std::int64_t last) {
-              std::vector<std::vector<std::size_t>> found;
-              std::vector<std::vector<double>> distances;
-              const flann::Matrix<double> queries(&copy[static_cast<std::size_t>(first)].x,
-                                                  static_cast<std::size_t>(last - first), 3);
-              flann::SearchParams all(flann::FLANN_CHECKS_UNLIMITED);
-              all.sorted = false;
-              index.radiusSearch(queries, found, distances, static_cast<float>(radius), all);
-              for (std::size_t q = 0; q < found.size(); ++q) {
-                const auto self = static_cast<std::size_t>(first) + q;
-                for (const std::size_t j : found[q]) {
-                  if (j != self) neighbours[self].push_back(static_cast<std::uint32_t>(j));
-                }
-              }
-            });
-  return neighbours;
 }
 
 struct ShapePush {
@@ -140,7 +107,7 @@ RelaxReport RelaxSamples(const TriangleMesh& mesh, const RelaxOptions& options,
   while (report.rounds < options.max_rounds && !report.converged) {
     // A Manhattan distance is at most sqrt(3) times the Euclidean one, and both ends move.
     if (2 * std::sqrt(3.0) * farthest > kSkin * spacing) {
-      neighbours = ManhattanNeighbours(points, push.reach + kSkin * spacing, &pool);
+      neighbours = internal::ManhattanNeighbours(points, push.reach + kSkin * spacing, &pool);
       listed_at = points;
     }
     const double step = options.step * spacing / (1 + report.rounds / 20.0);
