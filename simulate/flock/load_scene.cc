@@ -16,6 +16,7 @@
 namespace flocklift {
 namespace {
 
+constexpr int kPoses = 24;      // of an animation that a file holds, a period
 constexpr int kBallRounds = 3;  // of cutting an octahedron's triangles in four
 
 TriangleMesh Placed(TriangleMesh mesh, const Placement& placement) {
@@ -56,6 +57,12 @@ ShapeInTime LoadShape(const ShapeSpec& spec) {
   if (spec.period > 0 && files.size() > 1) {
     const AnimatedMesh animation = ReadKeyFrames(files);
     for (std::size_t k = 0; k < files.size(); ++k) shape.meshes.push_back(animation.Frame(k));
+  } else if (spec.period > 0) {  // a file that holds the animation itself
+    const AnimatedMesh animation = ReadAnimation(files[0], kPoses);
+    for (int k = 0; k < kPoses; ++k) {
+      shape.meshes.push_back(animation.Frame(static_cast<std::size_t>(k)));
+      if (k > 0) shape.times.push_back(shape.times[0] + spec.period * k / kPoses);
+    }
   } else {
     for (const std::filesystem::path& file : files) shape.meshes.push_back(ReadMesh(file));
   }

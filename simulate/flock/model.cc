@@ -24,7 +24,9 @@ const Registry<ModelParameters>& Known() {
        {"forces", "nothing but the terms that stand below [[species.force]]", "the scene",
         ForcesParameters{}},
        {"swarm", "curl noise and the cheapest way to the goals, without inertia; insects",
-        "Wang, Jin, Deng, Zhou 2014", SwarmParameters{}}});
+        "Wang, Jin, Deng, Zhou 2014", SwarmParameters{}},
+       {"shape", "insects that form a [[shape]], stay in motion on it, and follow it along a path",
+        "Chen, Luo, Tong, Jin, Deng 2019", ShapeParameters{}}});
   return registry;
 }
 

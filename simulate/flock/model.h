@@ -19,6 +19,7 @@
 #include "simulate/flock/linear_model.h"
 #include "simulate/flock/opensteer_model.h"
 #include "simulate/flock/registry.h"
+#include "simulate/flock/shape_model.h"
 #include "simulate/flock/swarm_model.h"
 
 namespace flocklift {
@@ -29,7 +30,8 @@ const ModelInfo* FindModel(std::string_view name);
 
 using ModelParameters =
     std::variant<BoidsParameters<double>, LinParameters<double>, LinearParameters<double>,
-                 ForcesParameters, OpenSteerParameters, BSwarmParameters, SwarmParameters>;
+                 ForcesParameters, OpenSteerParameters, BSwarmParameters, SwarmParameters,
+                 ShapeParameters>;
 
 // Registry::Resolve and Registry::Complete of the models.
 ModelParameters ResolveModel(const ModelSpec& spec);

@@ -9,6 +9,7 @@
 #include "simulate/flock/lin_motion.h"
 #include "simulate/flock/linear_motion.h"
 #include "simulate/flock/opensteer_motion.h"
+#include "simulate/flock/shape_motion.h"
 #include "simulate/flock/swarm_motion.h"
 
 namespace flocklift {
@@ -28,6 +29,7 @@ struct Make {
   Result operator()(const BSwarmParameters& p) { return MakeBSwarmMotion(p, context, *herd); }
   Result operator()(const ForcesParameters& p) { return MakeForcesMotion(p, context, *herd); }
   Result operator()(const SwarmParameters& p) { return MakeSwarmMotion(p, context, *herd); }
+  Result operator()(const ShapeParameters& p) { return MakeShapeMotion(p, context, *herd); }
 };
 
 }  // namespace

@@ -178,6 +178,27 @@ void SumPairs(const ZoneParameters& p, const KernelVariant* kernel, const PairTa
 }
 
 template <typename T>
+void SumPairs(const ShapePairNumbers& n, const KernelVariant* kernel, const PairTask<T>& task,
+              ThreadPool* pool) {
+  if constexpr (std::is_same_v<T, float>) {
+    if (kernel != nullptr && task.nearest == nullptr) {
+      const ShapeJob job{.pairs = MakeJob(task, Reach(n)),
+                         .r_rep = F(n.r_rep),
+                         .r_ali = F(n.r_ali),
+                         .r_att = F(n.r_att),
+                         .w_rep = F(n.w_rep),
+                         .w_ali = F(n.w_ali),
+                         .w_att = F(n.w_att),
+                         .w_con = F(n.w_con),
+                         .reach = F(n.reach),
+                         .sigma = F(n.sigma)};
+      return SumWith(kernel->shape, job, task.bodies.size(), pool);
+    }
+  }
+  SumScalar(MakeShapePairs<T>(n), task, pool);
+}
+
+template <typename T>
 void SumPairs(const SteerParameters& p, const KernelVariant* kernel, const PairTask<T>& task,
               ThreadPool* pool) {
   if constexpr (std::is_same_v<T, float>) {
@@ -238,6 +259,8 @@ NeighbourLists FindNearest(const Bodies<T>& bodies, int count, ThreadPool* pool)
   template void SumPairs(const BoidsParameters<double>&, const KernelVariant*, const PairTask<T>&, \
                          ThreadPool*);                                                             \
   template void SumPairs(const ZoneParameters&, const KernelVariant*, const PairTask<T>&,          \
+                         ThreadPool*);                                                             \
+  template void SumPairs(const ShapePairNumbers&, const KernelVariant*, const PairTask<T>&,        \
                          ThreadPool*);                                                             \
   template void SumPairs(const SteerParameters&, const KernelVariant*, const PairTask<T>&,         \
                          ThreadPool*);                                                             \

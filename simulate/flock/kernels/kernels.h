@@ -49,6 +49,11 @@ struct ZonesJob {
   PairJob pairs;
   float r_rep, r_ali, r_att, w_rep, w_ali, w_att, taper;
 };
+struct ShapeJob {  // ShapePairNumbers
+  PairJob pairs;
+  float r_rep, r_ali, r_att, w_rep, w_ali, w_att;
+  float w_con, reach, sigma;
+};
 struct SteerJob {  // the velocities are headings
   PairJob pairs;
   struct Rule {
@@ -73,6 +78,8 @@ struct KernelVariant {
   void (*boids)(const BoidsJob& job, std::uint32_t first, std::uint32_t last,
                 std::uint32_t* candidates);
   void (*zones)(const ZonesJob& job, std::uint32_t first, std::uint32_t last,
+                std::uint32_t* candidates);
+  void (*shape)(const ShapeJob& job, std::uint32_t first, std::uint32_t last,
                 std::uint32_t* candidates);
   void (*steer)(const SteerJob& job, std::uint32_t first, std::uint32_t last,
                 std::uint32_t* candidates);

@@ -9,6 +9,7 @@
 #include "simulate/flock/boids.h"
 #include "simulate/flock/integrator.h"
 #include "simulate/flock/kernels/pair_kernel_inl.h"
+#include "simulate/flock/shape_pairs.h"
 #include "simulate/flock/steer_pairs.h"
 #include "simulate/flock/zone_pairs.h"
 
@@ -59,6 +60,16 @@ struct Kernels {
     }
   }
 
+  [[gnu::flatten]] static void Shape(const ShapeJob& job, std::uint32_t first, std::uint32_t last,
+                                     std::uint32_t* room) {
+    const auto zone = [&](float gain) -> ZoneParams<Pack, HardEdge> {
+      return {Pack(gain), Pack(job.r_rep), Pack(job.r_ali), Pack(job.r_att), HardEdge{}};
+    };
+    const ShapePairs<Pack> rules{{zone(job.w_rep), zone(job.w_ali), zone(job.w_att)},
+                                 {Pack(job.w_con), Pack(job.reach), Pack(job.sigma), HardEdge{}}};
+    SumPairs<Pack>(job.pairs, rules, HardEdge{}, first, last, room);
+  }
+
   [[gnu::flatten]] static void Steer(const SteerJob& job, std::uint32_t first, std::uint32_t last,
                                      std::uint32_t* room) {
     const auto run = [&](auto taper, auto view_taper) {
@@ -100,7 +111,7 @@ struct Kernels {
   }
 
   static constexpr KernelVariant Named(const char* name, bool (*supported)()) {
-    return {name, supported, Boids, Zones, Steer, Move};
+    return {name, supported, Boids, Zones, Shape, Steer, Move};
   }
 };
 

@@ -36,6 +36,14 @@ TEST(ShapeForce, ByHand) {
   ExpectNear(push, {factor, 2 * factor, 2 * factor}, 1e-9);
 }
 
+TEST(ShapeForce, FallIsTheExponential) {
+  for (double y = 0; y < 2.5; y += 0.01) {
+    EXPECT_NEAR(ShapeForce::Fall(y), std::exp(-y), 1e-10);
+    EXPECT_NEAR(ShapeForce::Fall(static_cast<float>(y)), std::exp(-y), 3e-6);
+  }
+  for (double y = 0; y < 50; y += 0.1) EXPECT_NEAR(ShapeForce::Fall(y), std::exp(-y), 1e-5);
+}
+
 TEST(ShapeForce, PushesApartAndCancelsInTheMiddle) {
   const std::array in{1.0, 5.0, 2.0, 0.0, 1.0, 0.5, 0.0, -1.0, -0.5, 0.0};
   EXPECT_NEAR(Norm(Evaluate<double>(Push{}, in)), 0, 1e-15);

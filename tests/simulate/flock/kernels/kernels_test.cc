@@ -54,6 +54,13 @@ TEST(Kernels, Zones) {
   }
 }
 
+TEST(Kernels, Shape) {
+  ShapeParameters p;
+  p.r_ali = 0.7;
+  ExpectVariantsGiveTheSameBytes(MakeShapePairNumbers(p, 0.3, 1.0));
+  ExpectVariantsGiveTheSameBytes(MakeShapePairNumbers(p, 0.5, 0.2));
+}
+
 TEST(Kernels, Steer) {
   for (const auto& p : {SteerRules(1), SteerRules(1, 0.2), SteerRules(1, 0, 0.1)}) {
     ExpectVariantsGiveTheSameBytes(p, true);

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/flock/shape_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "simulate/core/check.h"
+#include "simulate/fields/curl_noise.h"
+#include "simulate/flock/force_passes.h"
+#include "simulate/flock/integrator.h"
+#include "simulate/flock/kernels/swarm_kernel.h"
+#include "simulate/flock/obstacle_field.h"
+#include "simulate/flock/pair_forces.h"
+#include "simulate/flock/shape_pairs.h"
+#include "simulate/flock/shape_targets.h"
+#include "simulate/flock/streams.h"
+#include "simulate/forces/drag.h"
+#include "simulate/forces/shape_distance.h"
+
+namespace flocklift {
+namespace {
+
+constexpr double kRangeGain = 0.3;    // of the way to the wanted number of neighbours, a step
+constexpr double kRangeChange = 0.1;  // at most, of the range, a step
+
+const ShapeInTime& FindShape(const MotionContext& context) {
+  for (const ShapeInTime& shape : context.world->shapes) {
+    if (shape.name == context.shape) return shape;
+  }
+  throw std::invalid_argument("species " + context.species +
+                              " has the model shape, which needs a [[shape]]: shape = \"NAME\"");
+}
+
+const PathSpec* FindPath(const MotionContext& context, const ShapeInTime& shape) {
+  const std::string& name = context.path.empty() ? shape.path : context.path;
+  for (const PathSpec& path : context.world->paths) {
+    if (path.name == name) return &path;
+  }
+  return nullptr;
+}
+
+template <typename T>
+std::vector<Vec3d> ByAgent(const Herd<T>& herd) {
+  std::vector<Vec3d> positions(herd.size());
+  for (std::size_t k = 0; k < herd.size(); ++k) {
+    positions[herd.now.agent[k]] = ToDouble(herd.now.Position(k));
+  }
+  return positions;
+}
+
+template <typename T>
+class ShapeMotion final : public Motion<T> {
+ public:
+  ShapeMotion(const ShapeParameters& p, const MotionContext& context, const Herd<T>& herd)
+      : p_(p),
+        kernel_(std::is_same_v<T, float> ? ChooseKernel(context.kernel) : nullptr),
+        targets_(FindShape(context), FindPath(context, FindShape(context)), context.world->duration,
+                 ByAgent(herd), context.world->time, context.world->seed, context.pool->threads()),
+        obstacles_(context.world->obstacles, p.obstacle_range, context.pool->threads()),
+        forces_(context, herd.size()),
+        noise_seed_(StreamOf(Stream::kNoise, context.world->seed, herd.first_agent).Bits()),
+        range_(StartRange(context.world->time)) {
+    for (std::vector<T>* column : {&curl_x_, &curl_y_, &curl_z_}) {
+      column->resize(herd.size() + Bodies<T>::kPadding);
+    }
+  }
+
+  void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
+    const double spacing = targets_.Spacing(around.time);
+    const ShapePairNumbers numbers = MakeShapePairNumbers(p_, spacing, range_);
+    herd->SortBy(std::max(Reach(numbers), forces_.Reach()), pool);
+    SumPairs<T>(numbers, kernel_, TaskOf(herd), pool);
+    AdaptRange(spacing, *herd);
+    forces_.Add(around, pool, herd);
+    const std::vector<Vec3d>& target = targets_.At(around.time);
+    const Vec3<T> carried = Cast<T>(targets_.Velocity(around.time));
+    pool->For(0, static_cast<std::int64_t>(herd->size()), kAgentGrain,
+              [&](std::int64_t first, std::int64_t last) {
+                Move(around, target, carried, static_cast<std::size_t>(first),
+                     static_cast<std::size_t>(last), herd);
+              });
+  }
+  void Retune(const ModelParameters& parameters) override {
+    const auto& p = std::get<ShapeParameters>(parameters);
+    if (p.neighbours == 0 || p_.neighbours == 0) range_ = World::kFar;
+    p_ = p;
+  }
+  void Save(StateWriter* out) const override {
+    out->Put(range_);
+    forces_.Save(out);
+  }
+  void Load(StateReader* in) override {
+    in->Take(&range_);
+    forces_.Load(in);
+  }
+  Room room() const override { return {0.5 * p_.d_min, 0}; }
+
+ private:
+  // What a surface of samples would need.
+  double StartRange(double time) const {
+    return p_.neighbours > 0 ? std::sqrt(p_.neighbours / 3.14159) * targets_.Spacing(time)
+                             : World::kFar;
+  }
+
+  // Towards the range at which animals have p_.neighbours on average; never less than what
+  // repulsion and the spreading over the shape need.
+  void AdaptRange(double spacing, const Herd<T>& herd) {
+    if (p_.neighbours <= 0) return;
+    double sum = 0;
+    for (std::size_t k = 0; k < herd.size(); ++k) sum += static_cast<double>(herd.neighbours[k]);
+    const double mean = std::max(sum / static_cast<double>(herd.size()), 0.1);
+    const double factor = std::pow(p_.neighbours / mean, kRangeGain);
+    range_ *= std::clamp(factor, 1 - kRangeChange, 1 + kRangeChange);
+    const double least = std::min(p_.r_att, std::max(p_.r_rep, 0.5 * spacing));
+    range_ = std::clamp(range_, least, p_.r_att);
+  }
+
+  // The curl noise where the animals first .. last - 1 are.
+  void FillNoise(std::size_t first, std::size_t last, const Bodies<T>& s) {
+    if constexpr (std::is_same_v<T, float>) {
+      const SwarmNoise noise{static_cast<float>(p_.gain), static_cast<float>(p_.scale),
+                             noise_seed_};
+      SwarmJob job{};
+      job.x = s.x.data();
+      job.y = s.y.data();
+      job.z = s.z.data();
+      job.noise = &noise;
+      job.noise_count = 1;
+      job.curl = true;
+      job.vx = curl_x_.data();
+      job.vy = curl_y_.data();
+      job.vz = curl_z_.data();
+      const SwarmKernel kernel =
+          kernel_ != nullptr ? FastestSwarmKernel().kernel : SwarmKernelScalar;
+      kernel(job, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last));
+    } else {
+      const NoiseTerm<T> noise{static_cast<T>(p_.gain), static_cast<T>(p_.scale), noise_seed_};
+      for (std::size_t k = first; k < last; ++k) {
+        const Vec3<T> curl = CurlNoise(noise, s.Position(k));
+        curl_x_[k] = curl.x;
+        curl_y_[k] = curl.y;
+        curl_z_[k] = curl.z;
+      }
+    }
+  }
+
+  void Move(const Surroundings& around, const std::vector<Vec3d>& target, const Vec3<T>& carried,
+            std::size_t first, std::size_t last, Herd<T>* herd) {
+    const T dt = static_cast<T>(around.dt()), own = static_cast<T>(p_.alpha);
+    const T shape = static_cast<T>(1 - p_.alpha);
+    FillNoise(first, last, herd->now);
+    const SpeedLimit::Params<T> limit{T(0), static_cast<T>(p_.s_max), T(0)};
+    const Drag::Params<T> drag{static_cast<T>(p_.drag), carried};
+    ShapeDistance::Params<T> pull{static_cast<T>(p_.w_dis), static_cast<T>(p_.dis_range), {}};
+    Bodies<T>& s = herd->now;
+    for (std::size_t k = first; k < last; ++k) {
+      Vec3<T> x = s.Position(k), v = s.Velocity(k);
+      pull.target = Cast<T>(target[s.agent[k]]);
+      Vec3<T> a = herd->Acceleration(k) + own * Vec3<T>{curl_x_[k], curl_y_[k], curl_z_[k]} +
+                  shape * ShapeDistance::At(pull, x, v) + Drag::At(drag, x, v);
+      a = Flattened(around.flat(), a);
+      herd->SetAcceleration(k, a);
+      v = carried + SpeedLimit::Limit(limit, v + dt * a - carried);
+      if (!obstacles_.empty()) v = Cast<T>(obstacles_.Turn(ToDouble(x), ToDouble(v)));
+      s.Set(k, x + dt * v, v);
+    }
+  }
+
+  ShapeParameters p_;
+  const KernelVariant* kernel_;  // null: scalar
+  ShapeTargets targets_;
+  ObstacleField obstacles_;
+  ForcePasses<T> forces_;
+  std::uint32_t noise_seed_;
+  double range_;                             // of the zones [m]
+  std::vector<T> curl_x_, curl_y_, curl_z_;  // curl noise, in the order of the herd
+};
+
+}  // namespace
+
+template <typename T>
+std::unique_ptr<Motion<T>> MakeShapeMotion(const ShapeParameters& parameters,
+                                           const MotionContext& context, const Herd<T>& herd) {
+  return std::make_unique<ShapeMotion<T>>(parameters, context, herd);
+}
+
+template std::unique_ptr<Motion<float>> MakeShapeMotion(const ShapeParameters&,
+                                                        const MotionContext&, const Herd<float>&);
+template std::unique_ptr<Motion<double>> MakeShapeMotion(const ShapeParameters&,
+                                                         const MotionContext&, const Herd<double>&);
+
+}  // namespace flocklift
