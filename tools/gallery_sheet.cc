@@ -21,7 +21,7 @@ namespace {
 constexpr int kGap = 6;        // between pictures [px]
 constexpr int kCaption = 26;   // height of the line below a picture [px]
 constexpr double kTextPx = 9;  // height of its capitals
-constexpr std::uint8_t kPaper = 250;
+constexpr std::uint8_t kPaper = 30;
 
 // 12345678 as "12 345 678".
 std::string Grouped(std::int64_t number) {
