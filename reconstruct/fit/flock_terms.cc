@@ -64,6 +64,17 @@ class BoidsTerms {
 
  private:
   void AddPairs(std::span<const Vec3d> x, std::span<const Vec3d> v, std::span<Vec3d> out) const {
+    const double taper = parameters_.taper;
+    if (parameters_.blind > 0) {
+      const ViewCone<double> view{{}, SightCosine(parameters_.blind), parameters_.blind_taper};
+      AddPairs(MakeBoidsPairs<double>(parameters_, taper, view), x, v, out);
+    } else {
+      AddPairs(MakeBoidsPairs<double>(parameters_, taper), x, v, out);
+    }
+  }
+  template <typename Pairs>
+  void AddPairs(const Pairs& pairs, std::span<const Vec3d> x, std::span<const Vec3d> v,
+                std::span<Vec3d> out) const {
     Bodies<double> unsorted, sorted;
     unsorted.Resize(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -73,7 +84,6 @@ class BoidsTerms {
     CellGrid<double> grid;
     const double reach = Reach(parameters_);
     grid.Sort(unsorted, reach, &sorted);
-    const auto pairs = MakeBoidsPairs<double>(parameters_, parameters_.taper);
     const auto view = grid.view();
     for (int row = 0; row < view.RowCount(); ++row) {
       const int b = 1 + row % view.ny, c = 1 + row / view.ny;
@@ -81,14 +91,15 @@ class BoidsTerms {
         const std::uint32_t begin = view.start[view.Cell(a, b, c)];
         const std::uint32_t end = view.start[view.Cell(a, b, c) + 1];
         for (std::uint32_t i = begin; i < end; ++i) {
-          BoidsPairs<double>::Sums sums;
+          typename Pairs::Sums sums;
           const Vec3d xi = sorted.Position(i), vi = sorted.Velocity(i);
+          const auto own = pairs.For(vi);
           CellGrid<double>::ForEachRun(view, a, a, b, c,
                                        [&](std::uint32_t first, std::uint32_t last) {
                                          for (std::uint32_t j = first; j < last; ++j) {
                                            const Vec3d dx = sorted.Position(j) - xi;
                                            if (j == i || SquaredNorm(dx) > reach * reach) continue;
-                                           sums += pairs.Pair(dx, sorted.Velocity(j) - vi);
+                                           sums += own.Pair(dx, sorted.Velocity(j) - vi);
                                          }
                                        });
           Vec3d* const to = &out[sorted.agent[i] * columns_];
@@ -169,6 +180,10 @@ FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>
   FlockTerms terms;
   terms.free = free;
   if (const auto* boids = std::get_if<BoidsParameters<double>>(&resolved)) {
+    if (boids->nearest > 0) {
+      throw InputError(model.WhereOf("nearest"), 0, "a fit knows no topological neighbours",
+                       "take nearest = 0, and a d_v");
+    }
     const BoidsParameters<double> seconds = InSeconds(*boids);
     terms.has_own_speed =
         boids->cruise > 0 || std::find(free.begin(), free.end(), "cruise") != free.end();
@@ -178,8 +193,7 @@ FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>
   } else if (const auto* linear = std::get_if<LinearParameters<double>>(&resolved)) {
     terms.evaluate = LinearTerms(*linear, free);
   } else {
-    throw InputError(model.where, 0,
-                     "model " + model.name + " moves positions and has no accelerations",
+    throw InputError(model.where, 0, "model " + model.name + " has no terms that a fit could weigh",
                      "take boids, boids2d or linear");
   }
   return terms;
