@@ -1,12 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Loops on several threads whose result does not depend on how many there are:
-// [begin, end) is cut into chunks of `grain` (the last may be shorter), and
-// `fn(first, last)` is called once for each. The cut depends on nothing but
-// begin, end and grain. Which thread does which chunk is left open, so `fn`
-// must write only what belongs to its chunk; ordered sums add per-chunk results
-// afterwards.
+// Loops on several threads whose result does not depend on how many there are: [begin, end) is cut
+// into chunks of `grain` (the last may be shorter), and `fn(first, last)` is called once for each.
+// The cut depends on nothing but begin, end and grain. Which thread does which chunk is left open,
+// so `fn` must write only what belongs to its chunk; ordered sums add per-chunk results afterwards.
 
 #ifndef FLOCKLIFT_SIMULATE_CORE_PARALLEL_FOR_H_
 #define FLOCKLIFT_SIMULATE_CORE_PARALLEL_FOR_H_
@@ -26,37 +24,29 @@ namespace flocklift {
 
 // `threads` as an option means it: 0 or less asks for all that the machine has.
 inline int ResolveThreads(int threads) {
-  return threads > 0
-             ? threads
-             : std::max(1,
-                        static_cast<int>(std::thread::hardware_concurrency()));
+  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-// Threads that wait between loops; for code that runs many short ones. The
-// caller's thread works too. One loop at a time, and no loop inside a loop of
-// the same pool.
+// Threads that wait between loops; for code that runs many short ones. The caller's thread works
+// too. One loop at a time, and no loop inside a loop of the same pool.
 class ThreadPool {
-public:
+ public:
   explicit ThreadPool(int threads) {
-    for (int k = 1; k < ResolveThreads(threads); ++k)
-      workers_.emplace_back([this] { Work(); });
+    for (int k = 1; k < ResolveThreads(threads); ++k) workers_.emplace_back([this] { Work(); });
   }
   ~ThreadPool() {
     stop_ = true;
     Wake();
-    for (std::thread &worker : workers_)
-      worker.join();
+    for (std::thread& worker : workers_) worker.join();
   }
-  ThreadPool(const ThreadPool &) = delete;
-  ThreadPool &operator=(const ThreadPool &) = delete;
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
 
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-  // Rethrows the exception of the first chunk that threw; chunks after it may
-  // be left out.
+  // Rethrows the exception of the first chunk that threw; chunks after it may be left out.
   template <typename Function>
-  void For(std::int64_t begin, std::int64_t end, std::int64_t grain,
-           const Function &fn) {
+  void For(std::int64_t begin, std::int64_t end, std::int64_t grain, const Function& fn) {
     FLOCKLIFT_DCHECK(grain > 0);
     std::atomic<std::int64_t> next{begin};
     std::int64_t failed = end;
@@ -84,21 +74,17 @@ public:
       Wake();
       drain();
       AwaitChange([this] { return running_ == 0; });
-      for (int running; (running = running_) != 0;)
-        running_.wait(running);
+      for (int running; (running = running_) != 0;) running_.wait(running);
     }
-    if (error)
-      std::rethrow_exception(error);
+    if (error) std::rethrow_exception(error);
   }
 
-private:
-  // Looks for a while before it is worth falling asleep: waking takes longer
-  // than many a loop.
+ private:
+  // Looks for a while before it is worth falling asleep: waking takes longer than many a loop.
   template <typename Condition>
-  static void AwaitChange(const Condition &changed) {
+  static void AwaitChange(const Condition& changed) {
     constexpr int kLooks = 2000;
-    for (int look = 0; look < kLooks && !changed(); ++look)
-      __builtin_ia32_pause();
+    for (int look = 0; look < kLooks && !changed(); ++look) __builtin_ia32_pause();
   }
   void Wake() {
     ++generation_;
@@ -108,34 +94,29 @@ private:
     for (std::uint32_t seen = 0;; ++seen) {
       AwaitChange([&] { return generation_ != seen; });
       generation_.wait(seen);
-      if (stop_)
-        return;
+      if (stop_) return;
       job_();
-      if (--running_ == 0)
-        running_.notify_one();
+      if (--running_ == 0) running_.notify_one();
     }
   }
 
   std::vector<std::thread> workers_;
-  std::function<void()> job_; // one loop's work, shared by all threads
+  std::function<void()> job_;  // one loop's work, shared by all threads
   std::atomic<std::uint32_t> generation_{0};
   std::atomic<int> running_{0};
   std::atomic<bool> stop_{false};
 };
 
-// One loop by itself, on threads of its own (0 or less: all that the machine
-// has).
+// One loop by itself, on threads of its own (0 or less: all that the machine has).
 template <typename Function>
-void ParallelFor(int threads, std::int64_t begin, std::int64_t end,
-                 std::int64_t grain, const Function &fn) {
-  if (begin >= end)
-    return;
+void ParallelFor(int threads, std::int64_t begin, std::int64_t end, std::int64_t grain,
+                 const Function& fn) {
+  if (begin >= end) return;
   const std::int64_t chunks = (end - begin + grain - 1) / grain;
-  ThreadPool pool(static_cast<int>(
-      std::min<std::int64_t>(ResolveThreads(threads), chunks)));
+  ThreadPool pool(static_cast<int>(std::min<std::int64_t>(ResolveThreads(threads), chunks)));
   pool.For(begin, end, grain, fn);
 }
 
-} // namespace flocklift
+}  // namespace flocklift
 
-#endif // FLOCKLIFT_SIMULATE_CORE_PARALLEL_FOR_H_
+#endif  // FLOCKLIFT_SIMULATE_CORE_PARALLEL_FOR_H_
