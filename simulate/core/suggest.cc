@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "simulate/core/text.h"
+
 namespace flocklift {
 namespace {
 
@@ -52,10 +54,14 @@ std::string SuggestName(std::string_view unknown, std::span<const std::string> k
   }
   if (nearest == nullptr) return "there are none";
   if (smallest <= std::max<int>(1, static_cast<int>(nearest->size()) / 3)) {
-    return "did you mean `" + *nearest + "`?";
+    return "did you mean " + Quoted(*nearest) + "?";
   }
-  std::string list = "known are ";
-  for (const std::string& name : known) list += (&name == &known.front() ? "" : ", ") + name;
+  constexpr std::size_t kMostListed = 40;
+  std::string list = "known are " + Printable(known.front());
+  for (const std::string& name : known.first(std::min(known.size(), kMostListed)).subspan(1)) {
+    list += ", " + Printable(name);
+  }
+  if (known.size() > kMostListed) list += ", ...";
   return list;
 }
 

@@ -3,6 +3,8 @@
 
 #include "simulate/core/text.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 
@@ -46,11 +48,13 @@ std::optional<std::int64_t> ParseInteger(std::string_view text) {
   return static_cast<std::int64_t>(*real);
 }
 
-std::string Quoted(std::string_view text) {
+std::string Printable(std::string_view text) {
   constexpr std::size_t kLongest = 40;
-  std::string quoted = "`";
-  for (char c : text.substr(0, kLongest)) quoted += c >= ' ' && c <= '~' ? c : '?';
-  return quoted + (text.size() > kLongest ? "...`" : "`");
+  std::string printable;
+  for (char c : text.substr(0, kLongest)) printable += c >= ' ' && c <= '~' ? c : '?';
+  return printable + (text.size() > kLongest ? "..." : "");
 }
+
+std::string Quoted(std::string_view text) { return fmt::format("`{}`", Printable(text)); }
 
 }  // namespace flocklift

@@ -21,7 +21,8 @@ std::string_view Trim(std::string_view text);
 std::optional<double> ParseReal(std::string_view text);
 std::optional<std::int64_t> ParseInteger(std::string_view text);
 
-// Foreign text for a message: in quotes, on one line, shortened, printable.
+// Foreign text for a message: on one line, shortened, printable; and the same in quotes.
+std::string Printable(std::string_view text);
 std::string Quoted(std::string_view text);
 
 }  // namespace flocklift

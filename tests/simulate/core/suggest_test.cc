@@ -41,5 +41,15 @@ TEST(SuggestName, NamesTheNearestOrAll) {
   EXPECT_EQ(SuggestName("x", {}), "there are none");
 }
 
+// Known names may come from a file, too.
+TEST(SuggestName, StaysOnOneLine) {
+  const std::vector<std::string> known{"a\nb\fc", std::string(99, 'x')};
+  EXPECT_EQ(SuggestName("a\nb\f", known), "did you mean `a?b?c`?");
+  EXPECT_EQ(SuggestName("speed", known), "known are a?b?c, " + std::string(40, 'x') + "...");
+  const std::string list = SuggestName("speed", std::vector<std::string>(1000, "temperature"));
+  EXPECT_LT(list.size(), 600u);
+  EXPECT_TRUE(list.ends_with("temperature, ..."));
+}
+
 }  // namespace
 }  // namespace flocklift
