@@ -32,6 +32,7 @@ void SetFigures(const TrackerReport& report, const Tracks& tracks, Stage* stage)
       {"shared_rows", report.shared_rows},
       {"interpolated_rows", report.filled_rows},
       {"joins", report.joins},
+      {"exchanges", report.exchanges},
       {"still_tracks_dropped", report.still_tracks},
       {"polarity", report.dark ? (report.bright ? "both" : "dark") : "bright"},
       {"usual_length_px", report.usual_length_px},

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kSharedConfidence = 0.7;
 constexpr double kFilledConfidence = 0.4;
+constexpr std::size_t kLeastWhole = 5;  // sightings that tell an animal's usual size
 
 bool StandsStill(const TrackRecord& record, double min_travel) {
   double left = 1e18, right = -1e18, top = 1e18, bottom = -1e18;
@@ -23,6 +24,40 @@ bool StandsStill(const TrackRecord& record, double min_travel) {
     bottom = std::max(bottom, s.position.y);
   }
   return std::hypot(right - left, bottom - top) < min_travel * record.size;
+}
+
+double Median(std::vector<double>* values) {
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
+  return *middle;
+}
+
+// Where the picture's edge cuts an animal off, its centre is reckoned from the side that is seen
+// and its usual size; sightings whose centre is outside the picture are left out.
+std::vector<TrackPoint> CompletedAtEdges(const std::vector<TrackPoint>& sightings,
+                                         double image_width, double image_height) {
+  std::vector<double> widths, heights;
+  for (const TrackPoint& s : sightings) {
+    if (s.edges.any() || s.shared) continue;
+    widths.push_back(s.box.width);
+    heights.push_back(s.box.height);
+  }
+  if (widths.size() < kLeastWhole) return sightings;
+  const double width = Median(&widths), height = Median(&heights);
+  std::vector<TrackPoint> completed;
+  for (TrackPoint s : sightings) {
+    const Box& b = s.box;
+    if (s.edges.left) s.position.x = std::min(s.position.x, b.left + b.width - 0.5 * width);
+    if (s.edges.right) s.position.x = std::max(s.position.x, b.left + 0.5 * width);
+    if (s.edges.top) s.position.y = std::min(s.position.y, b.top + b.height - 0.5 * height);
+    if (s.edges.bottom) s.position.y = std::max(s.position.y, b.top + 0.5 * height);
+    if (s.position.x < 0 || s.position.y < 0 || s.position.x > image_width - 1 ||
+        s.position.y > image_height - 1) {
+      continue;
+    }
+    completed.push_back(s);
+  }
+  return completed;
 }
 
 }  // namespace
@@ -41,8 +76,11 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
       ++report->still_tracks;
       continue;
     }
+    const std::vector<TrackPoint> sightings =
+        CompletedAtEdges(record.sightings, image_width, image_height);
+    if (static_cast<int>(sightings.size()) < options.min_length) continue;
     std::vector<Measurement> measurements;
-    for (const TrackPoint& s : record.sightings) {
+    for (const TrackPoint& s : sightings) {
       measurements.push_back({s.frame, s.position, s.variance, s.agility});
     }
     const std::vector<MotionState> states =
@@ -55,19 +93,19 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
       Detection row;
       row.frame = frame;
       const Vec2d& p = states[k].position;
-      if (record.sightings[next].frame == frame) {
-        const TrackPoint& s = record.sightings[next++];
-        row.box = Box::Around(p, s.width, s.height);
+      if (sightings[next].frame == frame) {
+        const TrackPoint& s = sightings[next++];
+        row.box = Box::Around(p, s.box.width, s.box.height);
         row.confidence = s.shared ? kSharedConfidence : 1.0;
         if (!s.shared) row.shape = s.shape;
         report->shared_rows += s.shared ? 1 : 0;
       } else {
         if (p.x < 0 || p.y < 0 || p.x > image_width - 1 || p.y > image_height - 1) continue;
-        const TrackPoint& before = record.sightings[next - 1];
-        const TrackPoint& after = record.sightings[next];
+        const TrackPoint& before = sightings[next - 1];
+        const TrackPoint& after = sightings[next];
         const double w = static_cast<double>(frame - before.frame) / (after.frame - before.frame);
-        row.box = Box::Around(p, before.width + w * (after.width - before.width),
-                              before.height + w * (after.height - before.height));
+        row.box = Box::Around(p, before.box.width + w * (after.box.width - before.box.width),
+                              before.box.height + w * (after.box.height - before.box.height));
         row.confidence = kFilledConfidence;
         ++report->filled_rows;
       }

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "simulate/core/check.h"
+#include "track/associate/uncross.h"
 #include "track/bounded_queue.h"
 #include "track/finish.h"
 #include "track/video_source.h"
@@ -23,6 +24,7 @@ constexpr std::size_t kLearnImages = 24;      // at the start, for the detector
 constexpr std::size_t kLearnStride = 2;       // of these, every second one
 constexpr std::size_t kLearnBlobFrames = 90;  // for the motion noise
 constexpr int kLeastPath = 8;                 // frames of a path that teaches motion
+constexpr int kRelearnInterval = 100;         // frames
 constexpr std::size_t kQueued = 6;            // frames between two threads
 
 class Stopwatch {
@@ -55,7 +57,7 @@ class Linker {
 
   void Add(BlobFrame frame) {
     if (tracker_) {
-      tracker_->Step(frame);
+      Step(frame);
       return;
     }
     first_.push_back(std::move(frame));
@@ -72,8 +74,15 @@ class Linker {
   void Start() {
     noise_ = EstimateMotionNoise(UnmistakablePaths(first_, kLeastPath), MotionNoise{});
     tracker_.emplace(options_.associate, noise_, width_, height_);
-    for (const BlobFrame& frame : first_) tracker_->Step(frame);
+    for (const BlobFrame& frame : first_) Step(frame);
     first_.clear();
+  }
+
+  void Step(const BlobFrame& frame) {
+    tracker_->Step(frame);
+    if (++steps_ % kRelearnInterval != 0) return;
+    noise_ = EstimateMotionNoise(tracker_->RecentPaths(kLeastPath), noise_);
+    tracker_->SetNoise(noise_);
   }
 
   const TrackerOptions& options_;
@@ -81,6 +90,7 @@ class Linker {
   MotionNoise noise_;
   std::vector<BlobFrame> first_;
   std::optional<FlockTracker> tracker_;
+  int steps_ = 0;
 };
 
 TrackerResult FinishAll(const TrackerOptions& options, Linker* linker, double width, double height,
@@ -88,13 +98,15 @@ TrackerResult FinishAll(const TrackerOptions& options, Linker* linker, double wi
   TrackerResult result;
   result.report = std::move(report);
   Timed(&result.report.timings.finish_s, [&] {
+    const MotionNoise& noise = linker->noise();
+    std::vector<TrackRecord> records = linker->Finish();
+    result.report.exchanges = Uncross(noise, &records);
     int joins = 0;
-    const std::vector<TrackRecord> records =
-        Stitch(options.stitch, linker->noise(), width, height, linker->Finish(), &joins);
+    records = Stitch(options.stitch, noise, width, height, std::move(records), &joins);
     result.report.joins = joins;
     result.report.noise = linker->noise();
-    result.tracks = internal::FinishTracks(options, linker->noise(), fps, width, height, records,
-                                           &result.report);
+    result.tracks =
+        internal::FinishTracks(options, noise, fps, width, height, records, &result.report);
   });
   return result;
 }

@@ -55,6 +55,7 @@ struct TrackerReport {
   std::int64_t shared_rows = 0;      // of these, from blobs that held several animals
   std::int64_t filled_rows = 0;      // of these, interpolated
   std::int64_t joins = 0;            // tracks stitched to one before
+  std::int64_t exchanges = 0;        // of tracks after a shared blob
   std::int64_t still_tracks = 0;     // dropped: they did not move
   MotionNoise noise;                 // as learned
   double usual_length_px = 0;        // 4 sd of an animal's major axis

@@ -148,6 +148,60 @@ TEST_F(TrackerTest, WhatStandsStillIsNoAnimal) {
             1u);
 }
 
+// Nothing to learn from at the start: the motion noise is learned when there is.
+TEST_F(TrackerTest, LateArrivalsTeachTheirMotion) {
+  std::vector<DetectionFrame> frames;
+  std::vector<Vec2d> p, v;
+  Rng rng(8);
+  for (int k = 0; k < 12; ++k) {
+    p.push_back({60.0 + 110 * (k % 4), 60.0 + 100 * (k / 4)});
+    v.push_back({rng.Uniform(-1, 1), rng.Uniform(-1, 1)});
+  }
+  for (int frame = 1; frame <= 320; ++frame) {
+    DetectionFrame f{frame, {}};
+    for (std::size_t k = 0; frame > 150 && k < p.size(); ++k) {
+      v[k].x = 0.9 * v[k].x + 1.2 * rng.Normal() - 0.01 * (p[k].x - 60.0 - 110 * (k % 4));
+      v[k].y = 0.9 * v[k].y + 1.2 * rng.Normal() - 0.01 * (p[k].y - 60.0 - 100 * (k / 4));
+      p[k] = {p[k].x + v[k].x, p[k].y + v[k].y};
+      Detection d;
+      d.frame = frame;
+      d.box = Box::Around(p[k], 6, 6);
+      f.detections.push_back(d);
+    }
+    frames.push_back(f);
+  }
+  const MotionNoise learned = TrackDetections({}, frames, kWidth, kHeight).report.noise;
+  const double size = std::sqrt(0.785 * 36);
+  EXPECT_GT(std::sqrt(learned.ProcessVariance(size)), 0.6);
+  EXPECT_LT(std::sqrt(learned.ProcessVariance(size)), 2.4);
+}
+
+// At the edge of the picture the box is cut off; the centre is reckoned from the usual size, and
+// rows end where it leaves the picture.
+TEST_F(TrackerTest, CentresAtTheEdgeAreCompleted) {
+  const fs::path folder = fs::path(testing::TempDir()) / "tracker_test_edge";
+  fs::create_directories(folder);
+  const auto truth = [](int frame) { return Vec2d{70 - 2.0 * frame, 160 + 0.2 * frame}; };
+  for (int frame = 1; frame <= 45; ++frame) {
+    const GrayImage picture =
+        DrawPicture(kWidth, kHeight, {.level = 150, .noise = 2},
+                    {{.center = truth(frame), .contrast = -90, .major_sd = 3.5, .minor_sd = 2}},
+                    static_cast<std::uint64_t>(frame));
+    const cv::Mat view(kHeight, kWidth, CV_8UC1, const_cast<std::uint8_t*>(picture.pixels.data()));
+    cv::imwrite((folder / (std::to_string(frame) + ".png")).string(), view);
+  }
+  const TrackerResult result = TrackVideo({}, folder);
+  fs::remove_all(folder);
+  ASSERT_EQ(result.tracks.tracklets.size(), 1u);
+  for (const Detection& d : result.tracks.tracklets[0].detections) {
+    EXPECT_NEAR(d.box.Center().x, truth(d.frame).x, 1.5) << d.frame;
+    EXPECT_GE(d.box.Center().x, -0.5);
+  }
+  const int last = result.tracks.tracklets[0].detections.back().frame;
+  EXPECT_GE(last, 33);
+  EXPECT_LE(last, 36);  // the centre crosses the edge after frame 35
+}
+
 TEST_F(TrackerTest, GapsAreFilledAndMarked) {
   std::vector<DetectionFrame> frames;
   for (int frame = 1; frame <= 30; ++frame) {

@@ -6,21 +6,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 
 #include "track/associate/assignment.h"
+#include "track/associate/occupants.h"
 #include "track/associate/point_grid.h"
 #include "track/associate/share_blob.h"
 
 namespace flocklift {
 namespace {
 
-constexpr double kMassSd = 0.4;  // of the log of an animal's mass from frame to frame
-constexpr double kMostMassCost = 4;
-constexpr double kShareCost = 1.5;       // a shared blob is less likely than one of its own
-constexpr double kLeastShareMass = 0.6;  // of what the animals together should have
-constexpr double kMemory = 0.15;         // weight of the newest size, mass and shape
+constexpr double kShareCost = 1.5;  // a shared blob is less likely than one of its own
+constexpr double kMemory = 0.15;    // weight of the newest size, mass and shape
+constexpr double kHiddenAmbiguity = 0.3;
+constexpr std::size_t kPathFrames = 60;  // of the past that tell how an animal moves
 constexpr double kReachSds = 1.5;        // a prediction so near to a blob may be inside
 
 double SpreadOf(const Moments& m) { return 0.5 * (m.xx + m.yy); }
@@ -37,11 +36,6 @@ double SquaredDistanceToPixels(std::span<const BlobPixel> pixels, const Vec2d& p
 
 std::span<const BlobPixel> PixelsOf(const BlobFrame& frame, const Blob& blob) {
   return std::span(frame.pixels).subspan(blob.first_pixel, blob.pixel_count);
-}
-
-double MassCost(double mass, double expected) {
-  const double z = std::log(mass / expected) / kMassSd;
-  return std::min(0.5 * z * z, kMostMassCost);
 }
 
 }  // namespace
@@ -125,6 +119,33 @@ void FlockTracker::KeepSeenApart(std::vector<int>* inside) const {
   *inside = std::move(kept);
 }
 
+// Who could not be told from the others for so long that it may as well be gone has to wait until
+// it is seen apart: first the one that had no blob of its own for the longest time.
+void FlockTracker::WaitIfHidden(std::vector<int>* inside) const {
+  while (inside->size() >= 2) {
+    const auto first = std::min_element(inside->begin(), inside->end(), [this](int a, int b) {
+      const Animal &x = animals_[a], &y = animals_[b];
+      return x.last_alone != y.last_alone ? x.last_alone < y.last_alone : x.hits < y.hits;
+    });
+    if (animals_[*first].hidden <= options_.max_missed_frames) return;
+    inside->erase(first);
+  }
+}
+
+Expectation FlockTracker::ExpectationOf(const Animal& animal) const {
+  return {animal.motion.state().position, animal.motion.state().pp,
+          noise_.MeasurementVariance(animal.record.size), animal.record.mass, animal.moments};
+}
+
+// Takes out who is not in the blob, though predicted there.
+void FlockTracker::DropAbsent(const Blob& blob, std::vector<int>* inside) const {
+  std::vector<Expectation> expectations;
+  for (const int i : *inside) expectations.push_back(ExpectationOf(animals_[i]));
+  std::vector<int> present;
+  for (const std::size_t k : FindOccupants(blob, expectations)) present.push_back((*inside)[k]);
+  *inside = std::move(present);
+}
+
 std::vector<FlockTracker::Observation> FlockTracker::Observe(const BlobFrame& blobs) {
   std::vector<std::vector<int>> expected = ExpectedInBlobs(blobs);
   std::vector<Observation> observations;
@@ -132,42 +153,21 @@ std::vector<FlockTracker::Observation> FlockTracker::Observe(const BlobFrame& bl
     const Blob& blob = blobs.blobs[j];
     std::vector<int>& inside = expected[j];
     KeepSeenApart(&inside);
-    // The blob must be heavy enough for all of them, as far as they do not hide each other; else
-    // whoever was missed longest is not in it.
-    while (inside.size() >= 2) {
-      double together = 0;
-      for (std::size_t a = 0; a < inside.size(); ++a) {
-        const Animal& x = animals_[inside[a]];
-        together += x.record.mass;
-        for (std::size_t b = 0; b < a; ++b) {
-          const Animal& y = animals_[inside[b]];
-          const double dx = x.motion.state().position.x - y.motion.state().position.x;
-          const double dy = x.motion.state().position.y - y.motion.state().position.y;
-          together -=
-              std::min(x.record.mass, y.record.mass) *
-              std::exp(-(dx * dx + dy * dy) / (2 * (SpreadOf(x.moments) + SpreadOf(y.moments))));
-        }
-      }
-      if (blob.mass >= kLeastShareMass * together) break;
-      const auto out = std::max_element(inside.begin(), inside.end(), [this](int a, int b) {
-        return animals_[a].missed < animals_[b].missed;
-      });
-      inside.erase(out);
-    }
+    WaitIfHidden(&inside);
+    if (inside.size() >= 2) DropAbsent(blob, &inside);
     if (inside.size() < 2) {
-      observations.push_back({blob.center, 0, static_cast<int>(j), -1});
+      observations.push_back({.position = blob.center, .blob = static_cast<int>(j)});
       continue;
     }
     std::vector<Expectation> expectations;
-    for (const int i : inside) {
-      const Animal& a = animals_[i];
-      expectations.push_back({a.motion.state().position, a.motion.state().pp,
-                              noise_.MeasurementVariance(a.record.size), a.record.mass, a.moments});
-    }
+    for (const int i : inside) expectations.push_back(ExpectationOf(animals_[i]));
     const std::vector<Share> shares = ShareBlob(PixelsOf(blobs, blob), expectations);
     for (std::size_t k = 0; k < inside.size(); ++k) {
-      observations.push_back(
-          {shares[k].position, shares[k].variance, static_cast<int>(j), inside[k]});
+      observations.push_back({.position = shares[k].position,
+                              .variance = shares[k].variance,
+                              .hidden = shares[k].ambiguity > kHiddenAmbiguity,
+                              .blob = static_cast<int>(j),
+                              .owner = inside[k]});
     }
   }
   return observations;
@@ -219,17 +219,20 @@ void FlockTracker::Sight(const BlobFrame& blobs, const Observation& o, Animal* a
                       .position = o.position,
                       .variance = variance,
                       .agility = animal->motion.agility(),
-                      .width = blob.box.width,
-                      .height = blob.box.height,
+                      .box = blob.box,
+                      .edges = blob.edges,
                       .shape = {},
-                      .shared = shared};
+                      .shared = shared,
+                      .hidden = shared && o.hidden,
+                      .blob = o.blob};
+  animal->hidden = sighting.hidden ? animal->hidden + 1 : 0;
   if (shared) {
     const TrackPoint& before = record.sightings.back();
-    sighting.width = before.width;
-    sighting.height = before.height;
+    sighting.box = Box::Around(o.position, before.box.width, before.box.height);
+    sighting.edges = {};
     sighting.shape = before.shape;
   } else {
-    if (blob.whole) NoteAlone(blobs.frame, animal);
+    if (!blob.cut && !blob.edges.any()) NoteAlone(blobs.frame, animal);
     const double w = std::max(kMemory, 1.0 / animal->hits);
     record.mass *= std::pow(blob.mass / record.mass, w);
     record.size *= std::pow(SizeOf(blob) / record.size, w);
@@ -262,6 +265,13 @@ void FlockTracker::UpdateAll(const BlobFrame& blobs, const std::vector<Observati
   }
 }
 
+void FlockTracker::End(Animal* animal) {
+  if (!animal->confirmed) return;
+  std::vector<TrackPoint>& sightings = animal->record.sightings;
+  while (sightings.back().hidden) sightings.pop_back();  // the first never is
+  finished_.push_back(std::move(animal->record));
+}
+
 void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observation>& observations,
                                const std::vector<int>& taken) {
   std::vector<char> used(blobs.blobs.size(), 0);
@@ -279,7 +289,7 @@ void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observa
             : animal.age + 1 - animal.hits > options_.confirm_frames - options_.confirm_hits ||
                   (outside && animal.missed > 0);
     if (over) {
-      if (animal.confirmed) finished_.push_back(std::move(animal.record));
+      End(&animal);
     } else {
       if (&animals_[kept] != &animal) animals_[kept] = std::move(animal);
       ++kept;
@@ -300,23 +310,41 @@ void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observa
     animal.motion =
         MotionFilter({blob.center, {0, 0}, variance, 0, noise_.speed_sd * noise_.speed_sd});
     animal.hits = 1;
-    if (blob.whole) NoteAlone(blobs.frame, &animal);
+    if (!blob.cut && !blob.edges.any()) NoteAlone(blobs.frame, &animal);
     animal.confirmed = options_.confirm_hits <= 1;
     animal.record.sightings.push_back(
         {.frame = blobs.frame,
          .position = blob.center,
          .variance = variance,
-         .width = blob.box.width,
-         .height = blob.box.height,
+         .box = blob.box,
+         .edges = blob.edges,
          .shape = ShapeOf(blob.moments, blob.mass / std::max(blob.peak, 1e-9))});
     animals_.push_back(std::move(animal));
   }
   strays_ += 0.1 * (strays - strays_);
 }
 
+std::vector<Path> FlockTracker::RecentPaths(int least) const {
+  std::vector<Path> paths;
+  for (const Animal& animal : animals_) {
+    const std::vector<TrackPoint>& all = animal.record.sightings;
+    std::size_t first = all.size();
+    while (first > 0 && all.size() - first < kPathFrames && !all[first - 1].shared &&
+           !all[first - 1].edges.any() &&
+           (first == all.size() || all[first - 1].frame + 1 == all[first].frame)) {
+      --first;
+    }
+    if (!animal.confirmed || static_cast<int>(all.size() - first) < least) continue;
+    Path path{animal.record.size, {}};
+    for (std::size_t k = first; k < all.size(); ++k) path.positions.push_back(all[k].position);
+    if (ExtentOf(path.positions) >= path.size) paths.push_back(std::move(path));
+  }
+  return paths;
+}
+
 std::vector<TrackRecord> FlockTracker::Finish() {
   for (Animal& animal : animals_) {
-    if (animal.confirmed) finished_.push_back(std::move(animal.record));
+    End(&animal);
   }
   animals_.clear();
   std::stable_sort(finished_.begin(), finished_.end(),

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "simulate/core/options.h"
+#include "track/associate/share_blob.h"
 #include "track/detect/blob.h"
 #include "track/predict/motion_filter.h"
 #include "track/predict/motion_noise.h"
@@ -43,12 +44,15 @@ void Describe(Visitor& visit, AssociationOptions& o) {
 // An animal as it was seen in one frame.
 struct TrackPoint {
   int frame = 0;
-  Vec2d position;                // [px]
-  double variance = 1;           // per axis [px^2]
-  double agility = 1;            // factor on the process noise up to this frame
-  double width = 0, height = 0;  // of its box [px]
+  Vec2d position;       // [px]
+  double variance = 1;  // per axis [px^2]
+  double agility = 1;   // factor on the process noise up to this frame
+  Box box;              // of the blob; of an animal like it where the blob is shared [px]
+  Edges edges = {};     // of the picture that the blob touches
   Shape shape = {};
-  bool shared = false;  // the blob held others too
+  bool shared = false;  // the blob held others too,
+  bool hidden = false;  // and could not be told from them
+  int blob = -1;        // its number in the frame's blobs
 };
 
 // One animal's sightings by increasing frame.
@@ -69,7 +73,9 @@ class FlockTracker {
   // All that was confirmed, by first frame.
   std::vector<TrackRecord> Finish();
 
-  int active() const { return static_cast<int>(animals_.size()); }
+  // What the confirmed animals did lately, each while it had a blob of its own: paths of at least
+  // `least` frames, up to this one, to learn the motion noise from.
+  std::vector<Path> RecentPaths(int least) const;
   void SetNoise(const MotionNoise& noise) { noise_ = noise; }
 
  private:
@@ -78,6 +84,7 @@ class FlockTracker {
     Moments moments;
     TrackRecord record;
     int hits = 0, missed = 0, age = 0;
+    int hidden = 0;                        // frames in a row
     int first_alone = 0, last_alone = -1;  // frames in which it had a whole blob of its own
     bool confirmed = false;
   };
@@ -85,6 +92,7 @@ class FlockTracker {
   struct Observation {
     Vec2d position;
     double variance = 0;
+    bool hidden = false;
     int blob = 0;
     int owner = -1;  // a share can be taken by its animal alone
   };
@@ -92,10 +100,14 @@ class FlockTracker {
   void PredictAll(int frames);
   std::vector<Observation> Observe(const BlobFrame& blobs);
   void KeepSeenApart(std::vector<int>* inside) const;
+  Expectation ExpectationOf(const Animal& animal) const;
+  void DropAbsent(const Blob& blob, std::vector<int>* inside) const;
   std::vector<std::vector<int>> ExpectedInBlobs(const BlobFrame& blobs) const;
   std::vector<int> AssignAll(const BlobFrame& blobs, const std::vector<Observation>& observations);
   void UpdateAll(const BlobFrame& blobs, const std::vector<Observation>& observations,
                  const std::vector<int>& taken);
+  void WaitIfHidden(std::vector<int>* inside) const;
+  void End(Animal* animal);
   static void NoteAlone(int frame, Animal* animal);
   void Sight(const BlobFrame& blobs, const Observation& observation, Animal* animal);
   void EndAndBegin(const BlobFrame& blobs, const std::vector<Observation>& observations,

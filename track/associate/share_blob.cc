@@ -61,13 +61,13 @@ std::vector<Share> ShareBlob(std::span<const BlobPixel> pixels,
     for (std::size_t k = 0; k < count; ++k) {
       const Expectation& a = animals[k];
       if (sum[k] < 1e-6) {
-        shares[k] = {a.position, 1e6};
+        shares[k] = {a.position, 1e6, 1};
         continue;
       }
       const double ambiguity = 1 - sum_squared[k] / sum[k];
       const double variance =
           a.noise + ambiguity * 0.5 * (a.moments.xx + a.moments.yy + 2 * kLeastVariance);
-      shares[k] = {{sum_x[k] / sum[k], sum_y[k] / sum[k]}, variance};
+      shares[k] = {{sum_x[k] / sum[k], sum_y[k] / sum[k]}, variance, ambiguity};
       const double w = a.variance / (a.variance + variance);
       means[k] = {w * shares[k].position.x + (1 - w) * a.position.x,
                   w * shares[k].position.y + (1 - w) * a.position.y};

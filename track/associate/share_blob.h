@@ -29,8 +29,9 @@ struct Expectation {
 
 // Its share of the blob.
 struct Share {
-  Vec2d position;       // measured [px]
-  double variance = 1;  // R_k [px^2]
+  Vec2d position;        // measured [px]
+  double variance = 1;   // R_k [px^2]
+  double ambiguity = 0;  // share of its pixels that others explain as well, in [0, 1]
 };
 
 std::vector<Share> ShareBlob(std::span<const BlobPixel> pixels,

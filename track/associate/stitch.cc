@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "track/associate/assignment.h"
-#include "track/predict/smoother.h"
+#include "track/associate/join_cost.h"
 
 namespace flocklift {
 namespace {
@@ -22,17 +23,10 @@ struct Ends {
 };
 
 Ends EndsOf(const TrackRecord& track, const MotionNoise& noise) {
-  const auto state = [&](std::size_t begin, std::size_t end, bool at_end) {
-    std::vector<Measurement> some;
-    for (std::size_t k = begin; k < end; ++k) {
-      const TrackPoint& s = track.sightings[k];
-      some.push_back({s.frame, s.position, s.variance, s.agility});
-    }
-    const auto states = Smooth(some, noise.ProcessVariance(track.size), noise.speed_sd);
-    return at_end ? states.back() : states.front();
-  };
-  const std::size_t count = track.sightings.size(), some = std::min(count, kEndSightings);
-  return {state(0, some, false), state(count - some, count, true)};
+  const std::span<const TrackPoint> all(track.sightings);
+  const std::size_t some = std::min(all.size(), kEndSightings);
+  return {StateAtFirst(all.first(some), track.size, noise),
+          StateAtLast(all.last(some), track.size, noise)};
 }
 
 double ChiSquare4Quantile(double probability) {
@@ -80,22 +74,11 @@ std::vector<TrackRecord> Stitch(const StitchOptions& options, const MotionNoise&
     const auto from = std::upper_bound(first_frames.begin(), first_frames.end(), end);
     for (auto it = from; it != first_frames.end() && *it - end <= options.max_gap; ++it) {
       const int b = by_first[static_cast<std::size_t>(it - first_frames.begin())];
-      MotionState ahead = ends[a].last;
-      Predict(&ahead, noise.ProcessVariance(0.5 * (tracks[a].size + tracks[b].size)), *it - end);
-      const MotionState& begin = ends[b].first;
-      const double c00 = ahead.pp + begin.pp, c01 = ahead.pv + begin.pv, c11 = ahead.vv + begin.vv;
-      const double det = c00 * c11 - c01 * c01;
-      const auto squared = [&](double dp, double dv) {
-        return (c11 * dp * dp - 2 * c01 * dp * dv + c00 * dv * dv) / det;
-      };
-      const double d2 =
-          squared(begin.position.x - ahead.position.x, begin.velocity.x - ahead.velocity.x) +
-          squared(begin.position.y - ahead.position.y, begin.velocity.y - ahead.velocity.y);
-      if (!(d2 <= gate)) continue;
+      const double q = noise.ProcessVariance(0.5 * (tracks[a].size + tracks[b].size));
+      const JoinCost join = CostOfJoin(ends[a].last, ends[b].first, q, *it - end);
+      if (!(join.squared_distance <= gate)) continue;
       const double mass = std::log(tracks[a].mass / tracks[b].mass) / kMassSd;
-      candidates.push_back({a, b,
-                            0.5 * d2 + 2 * std::log(2 * std::numbers::pi) + std::log(det) +
-                                std::min(0.5 * mass * mass, 8.0)});
+      candidates.push_back({a, b, join.cost + std::min(0.5 * mass * mass, 8.0)});
     }
   }
   const std::vector<int> next =

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Joins tracks across gaps: one that ends and one that begins soon after where the first would be,
-// moving as it moved. All joins are chosen together, at the least total cost. A join of tracks a
-// and b over a gap of t frames costs the negative log likelihood of the 4-vector (position,
-// velocity)
-//   1/2 d^2 + ln((2 pi)^2 |C|),   C = F P_a F' + Q + P_b (per axis),
-// against that of an end and an unrelated beginning: -ln(density of beginnings per px^2, frame and
-// (px/frame)^2).
+// moving as it moved. All joins are chosen together, at the least total cost: that of each join
+// (join_cost.h) against that of an end and an unrelated beginning, -ln(density of beginnings per
+// px^2, frame and (px/frame)^2).
 
 #ifndef FLOCKLIFT_TRACK_ASSOCIATE_STITCH_H_
 #define FLOCKLIFT_TRACK_ASSOCIATE_STITCH_H_

@@ -22,19 +22,26 @@ struct Moments {
   double xx = 0, xy = 0, yy = 0;
 };
 
+struct Edges {
+  bool left = false, top = false, right = false, bottom = false;
+
+  bool any() const { return left || top || right || bottom; }
+};
+
 // One pixel of a blob: how much it differs from the background [grey levels], positive.
 struct BlobPixel {
   float x = 0, y = 0, contrast = 0;
 };
 
 struct Blob {
-  Vec2d center;       // contrast-weighted [px]
-  Moments moments;    // contrast-weighted, of the pixels as squares (1/12 included)
-  double mass = 0;    // sum of the contrast [grey levels px^2]
-  double peak = 0;    // largest contrast, lightly smoothed [grey levels]
-  double snr = 0;     // peak over the local noise
-  Box box;            // of the pixels
-  bool whole = true;  // neither cut at a saddle nor at the edge of the picture
+  Vec2d center;      // contrast-weighted [px]
+  Moments moments;   // contrast-weighted, of the pixels as squares (1/12 included)
+  double mass = 0;   // sum of the contrast [grey levels px^2]
+  double peak = 0;   // largest contrast, lightly smoothed [grey levels]
+  double snr = 0;    // peak over the local noise
+  Box box;           // of the pixels
+  bool cut = false;  // at a saddle: a part of a larger patch
+  Edges edges;       // of the picture that it touches: there is more of it outside
   std::uint32_t first_pixel = 0, pixel_count = 0;  // in BlobFrame::pixels; none: not known
 };
 

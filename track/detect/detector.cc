@@ -201,8 +201,12 @@ void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
       Blob blob = Measure(*found, first);
       blob.peak = part_peak;
       blob.snr = part_peak / noise;
-      blob.whole = parts == 1 && c.left > 0 && c.top > 0 && c.right < image.width - 1 &&
-                   c.bottom < image.height - 1;
+      blob.cut = parts > 1;
+      const Box& box = blob.box;
+      blob.edges.left = box.left < 0;
+      blob.edges.top = box.top < 0;
+      blob.edges.right = box.left + box.width > image.width - 1;
+      blob.edges.bottom = box.top + box.height > image.height - 1;
       if (part_peak < high || static_cast<int>(blob.pixel_count) < options_.min_area ||
           std::max(blob.box.width, blob.box.height) > kLongestOverWindow * window) {
         found->pixels.resize(first);

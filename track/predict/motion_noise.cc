@@ -79,17 +79,6 @@ struct Growing {
   }
 };
 
-double Extent(const std::vector<Vec2d>& positions) {
-  double low_x = 1e18, high_x = -1e18, low_y = 1e18, high_y = -1e18;
-  for (const Vec2d& p : positions) {
-    low_x = std::min(low_x, p.x);
-    high_x = std::max(high_x, p.x);
-    low_y = std::min(low_y, p.y);
-    high_y = std::max(high_y, p.y);
-  }
-  return std::hypot(high_x - low_x, high_y - low_y);
-}
-
 // -ln of the density of z [1/px^2].
 double Surprise(const MotionState& state, const Vec2d& z, double r) {
   return 0.5 * SquaredInnovation(state, z, r) + std::log(2 * std::numbers::pi * (state.pp + r));
@@ -119,6 +108,17 @@ double LogLikelihood(std::span<const Path> paths, const MotionNoise& noise) {
 
 }  // namespace
 
+double ExtentOf(std::span<const Vec2d> points) {
+  double low_x = 1e18, high_x = -1e18, low_y = 1e18, high_y = -1e18;
+  for (const Vec2d& p : points) {
+    low_x = std::min(low_x, p.x);
+    high_x = std::max(high_x, p.x);
+    low_y = std::min(low_y, p.y);
+    high_y = std::max(high_y, p.y);
+  }
+  return std::hypot(high_x - low_x, high_y - low_y);
+}
+
 std::vector<Path> UnmistakablePaths(std::span<const BlobFrame> frames, int least) {
   std::vector<Path> paths;
   std::vector<Growing> growing;
@@ -126,7 +126,7 @@ std::vector<Path> UnmistakablePaths(std::span<const BlobFrame> frames, int least
     if (static_cast<int>(g->positions.size()) < least) return;
     std::nth_element(g->sizes.begin(), g->sizes.begin() + g->sizes.size() / 2, g->sizes.end());
     const double size = g->sizes[g->sizes.size() / 2];
-    if (Extent(g->positions) < size) return;
+    if (ExtentOf(g->positions) < size) return;
     paths.push_back({size, std::move(g->positions)});
   };
   for (const BlobFrame& frame : frames) {

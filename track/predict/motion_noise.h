@@ -37,6 +37,9 @@ struct Path {
   std::vector<Vec2d> positions;
 };
 
+// Diagonal of the box around some points [px].
+double ExtentOf(std::span<const Vec2d> points);
+
 // Paths of blobs that are each other's nearest from frame to frame (after the path's own velocity)
 // and twice as near as the next one. `frames` are consecutive; paths shorter than `least` are
 // left out, and so is whatever moves less than its own size (lamps, branches).

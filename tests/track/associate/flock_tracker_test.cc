@@ -92,6 +92,22 @@ TEST(FlockTrackerTest, MergedBlobIsSharedForAsLongAsItLasts) {
   }
 }
 
+// A second track on one animal (it was lost for a moment and found as a new one) must not ride
+// along in the same blob for ever.
+TEST(FlockTrackerTest, OneAnimalHasOneTrack) {
+  // It jumps at frame 20: a new track begins, the old one is still predicted nearby.
+  const auto path = [](int t) {
+    return t < 20 ? Vec2d{100 + 3.0 * t, 200} : Vec2d{100 + 3.0 * t, 212};
+  };
+  const auto far = [](int t) { return Vec2d{500 - 2.0 * t, 400}; };
+  int rows = 0;
+  for (const TrackRecord& track : Track(Film(80, {path, far}))) {
+    rows += static_cast<int>(track.sightings.size());
+  }
+  EXPECT_LE(rows, 2 * 80 + 8);
+  EXPECT_GE(rows, 2 * 80 - 8);
+}
+
 TEST(FlockTrackerTest, CoastsThroughAShortGap) {
   const auto path = [](int t) {
     return t > 15 && t <= 21 ? kNowhere : Vec2d{50 + 4.0 * t, 100 + 1.5 * t};

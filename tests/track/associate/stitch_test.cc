@@ -20,8 +20,7 @@ TrackRecord Straight(const Vec2d& start, const Vec2d& velocity, int first, int l
                                .position = {start.x + velocity.x * frame + 0.1 * rng.Normal(),
                                             start.y + velocity.y * frame + 0.1 * rng.Normal()},
                                .variance = 0.08,
-                               .width = 9,
-                               .height = 7});
+                               .box = Box::Around({0, 0}, 9, 7)});
   }
   return track;
 }
