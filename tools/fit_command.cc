@@ -15,6 +15,7 @@
 #include "simulate/core/io.h"
 #include "simulate/core/parameters.h"
 #include "simulate/core/text.h"
+#include "tools/evaluate_files.h"
 #include "tools/stage.h"
 #include "tools/walls.h"
 
@@ -46,6 +47,19 @@ ModelSpec ModelOf(const FitCommand& command) {
   return model;
 }
 
+void ParseGoal(const std::string& text, FitProblem* problem) {
+  if (text == "auto" || text == "none" || text == "seek") {
+    problem->goal = text == "auto"   ? GoalChoice::kWhenHeld
+                    : text == "none" ? GoalChoice::kNone
+                                     : GoalChoice::kSought;
+    return;
+  }
+  const std::optional<std::vector<double>> numbers = ParseNumbers(text, 3);
+  Check(numbers.has_value(), "--goal " + text + " is none of auto, none, seek and X,Y,Z");
+  problem->goal = GoalChoice::kGiven;
+  problem->goal_position = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
 nlohmann::ordered_json NumberOrNull(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
@@ -58,6 +72,7 @@ nlohmann::ordered_json WeightAsJson(const FittedWeight& weight) {
                                  {"determined", weight.determined},
                                  {"plain_least_squares", NumberOrNull(weight.plain)}};
   if (weight.depth_factor) json["depth_error_factor"] = NumberOrNull(*weight.depth_factor);
+  if (weight.depth_share) json["depth_error_share"] = *weight.depth_share;
   if (weight.depth_factor_sd) json["depth_error_factor_sd"] = NumberOrNull(*weight.depth_factor_sd);
   return json;
 }
@@ -87,6 +102,9 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
                                  {"own_speed_sd", result.own_speed_sd},
                                  {"condition", NumberOrNull(result.condition)}};
   if (result.r2_held_out) json["r2_held_out"] = *result.r2_held_out;
+  for (const GoalSpec& goal : result.parameters.goals) {
+    json["goal"] = {goal.position.x, goal.position.y, goal.position.z};
+  }
   for (const FittedWeight& weight : result.weights) {
     json["weights"].push_back(WeightAsJson(weight));
   }
@@ -110,8 +128,13 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
   stage.options() = {{"model", command.model},
                      {"free", command.free},
                      {"set", command.set},
-                     {"walls", command.walls}};
-  stage.options()["fit"] = OptionsAsJson(command.fit);
+                     {"walls", command.walls},
+                     {"goal", command.goal}};
+  FitOptions options = command.fit;
+  if (options.scale_sd == 0) {  // the reconstruction may have said
+    options.scale_sd = ScaleSdOfSummary(command.trajectories.parent_path()).value_or(0);
+  }
+  stage.options()["fit"] = OptionsAsJson(options);
   stage.options()["seed"] = common.seed;
   if (common.fps) stage.options()["fps"] = *common.fps;
   RequireFile(command.trajectories, "give the file that `flocklift reconstruct` wrote");
@@ -119,6 +142,7 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
   FitProblem problem;
   problem.free = command.free;
   problem.walls = ParseWalls(command.walls);
+  ParseGoal(command.goal, &problem);
   if (!command.start.empty()) stage.AddInput(command.start);
   problem.model = ModelOf(command);
   if (!command.camera.empty()) {
@@ -135,8 +159,8 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
     throw InputError(command.trajectories.string(), 0, "says no frames per second", "give --fps");
   }
   const Progress progress = stage.BeginPhase("regress", "refits");
-  const FitResult result = FitModel(command.fit, problem, trajectories, *fps, common.seed,
-                                    common.ThreadCount(), progress);
+  const FitResult result =
+      FitModel(options, problem, trajectories, *fps, common.seed, common.ThreadCount(), progress);
   stage.EndPhase();
   if (!result.IsUsable()) {
     throw CannotFit(command.trajectories.string() + ": " + StatusText(result.status));
@@ -167,6 +191,10 @@ void AddFitCommand(CLI::App& app) {
   sub->add_option("--start", command->start, "parameters.toml that gives what is not free");
   sub->add_option("--camera", command->camera, "camera file: where depth errors point");
   AddWallsFlag(*sub, &command->walls);
+  sub->add_option("--goal", command->goal,
+                  "a point that attracts all: auto (sought when something holds the animals in "
+                  "place), none, seek, or X,Y,Z [m]")
+      ->capture_default_str();
   AddFlags(*sub, command->fit, "Fit");
 }
 

@@ -21,11 +21,15 @@
 namespace flocklift {
 namespace {
 
-constexpr double kSpeedSlack = 0.05;  // beyond the 1st and 99th percentile of speeds
+constexpr double kConfining = 0.05;       // share of u pulling to the middle that calls for a goal
+constexpr int kGoalRounds = 8;            // of moving it
+constexpr double kGoalTolerance = 0.03;   // ... until it moves by less, of its range
+constexpr std::size_t kFrameEffects = 5;  // animals a frame that frame effects need
+constexpr double kSpeedSlack = 0.05;      // beyond the 1st and 99th percentile of speeds
 // A weight is determined when its 95 % interval leaves 0 out, or when all of the interval would
 // change accelerations by less than this share of what the model explains.
 constexpr double kSmallShare = 0.25;
-// ... and when one more depth error of the stated size changes it by less than this share.
+// ... and when one more depth error of the stated size changes it, and its term, by less than this.
 constexpr double kDepthShare = 0.5;
 
 std::vector<std::string> DefaultFree(const FitProblem& problem) {
@@ -65,6 +69,17 @@ void WidenSpeedLimits(const FitProblem& problem, const ObservedFlock& flock, Mod
   widen("s_max", high, high > (1 + 2 * kSpeedSlack) * model->parameters.at("s_max"));
 }
 
+double MeanSpeed(const ObservedFlock& flock) {
+  double sum = 0, count = 0;
+  for (int f = flock.span().first; f <= flock.span().last; ++f) {
+    for (const Vec3d& v : flock.Between(f, 0, 1, 0).velocity) {
+      sum += Norm(v);
+      count += 1;
+    }
+  }
+  return count > 0 ? sum / count : 0;
+}
+
 // The frames to make rows of: all, or every stride-th with those before it that it needs.
 std::vector<int> Middles(const ObservedFlock& flock, int window, int stride) {
   const FrameSpan span = flock.span();
@@ -93,15 +108,16 @@ class Fitter {
         flock_(trajectories, fps, options.bridged_gap) {}
 
   FitResult Run(const Progress& progress) {
-    ModelSpec model = CompleteModel(problem_.model);
-    std::vector<std::string> free = problem_.free.empty() ? DefaultFree(problem_) : problem_.free;
-    if (!problem_.walls && std::find(free.begin(), free.end(), "alpha_b") != free.end()) {
+    model_ = CompleteModel(problem_.model);
+    free_ = problem_.free.empty() ? DefaultFree(problem_) : problem_.free;
+    if (!problem_.walls && std::find(free_.begin(), free_.end(), "alpha_b") != free_.end()) {
       throw InputError(problem_.model.where, 0, "alpha_b is to be fitted, but there are no walls",
                        "say where the walls are, or leave alpha_b out");
     }
-    WidenSpeedLimits(problem_, flock_, &model, &result_.warnings);
-    terms_ = MakeFlockTerms(model, free, problem_.walls);
-    result_.parameters.model = model;
+    WidenSpeedLimits(problem_, flock_, &model_, &result_.warnings);
+    UseGoal({});  // also checks the names
+    result_.parameters.model = model_;
+    result_.parameters.walls = problem_.walls;
     result_.animals = flock_.animals();
     const FrameSpan span = flock_.span();
     result_.frames = span.last - span.first + 1;
@@ -110,42 +126,110 @@ class Fitter {
       return std::move(result_);
     }
     ChooseRows();
-    const MotionRows rows = Rows(flock_, progress);
-    whitening_.lagged = !options_.plain;
-    whitening_.own_speed = terms_.has_own_speed;
-    whitening_.stride = stride_;
-    const bool depth_errors = trajectories_.has_sd_depth;
-    if (depth_errors) {
-      whitening_.sight = [this](int frame, const Vec3d& position) {
-        return DepthDirection(problem_.camera, frame, position);
-      };
-    }
-    WhitenedFit fit = SolveWhitened(whitening_, rows);
-    if (fit.IsUsable() && fit.depth_variance > 0) {
-      whitening_.depth_variance = fit.depth_variance;
-      fit = SolveWhitened(whitening_, rows);
-    }
+    ChooseWhitening();
+    WhitenedFit fit = Solve(progress);
+    if (fit.IsUsable()) SettleGoal(&fit);
     if (!fit.IsUsable()) {
       result_.status = fit.regression.status == RegressionStatus::kTooFewTimes
                            ? FitStatus::kTooFewFrames
                            : FitStatus::kTooFewRows;
       return std::move(result_);
     }
-    SummarizeWeights(rows, fit);
-    EnforceLegalRange(rows);
-    SummarizeRest(rows, fit);
-    if (options_.held_out > 0) {
-      const int held_out = static_cast<int>(options_.held_out * result_.frames);
-      result_.r2_held_out = HeldOutR2(whitening_, rows, span.last - held_out + 1, flock_.animals());
-    }
-    if (depth_errors && options_.depth_draws > 0) AddDepthFactors(fit);
-    WritePosterior(fit);
-    const double pull = problem_.walls ? 0 : PullToTheMiddle(rows, u_);
-    AddWarnings(options_, pull, MedianSdDepth(trajectories_), &result_);
+    SummarizeWeights(fit);
+    SummarizeRest(fit);
+    if (options_.held_out > 0) result_.r2_held_out = Prediction();
+    if (trajectories_.has_sd_depth && options_.depth_draws > 0) AddDepthFactors(fit);
+    WriteParametersOf(fit);
+    AddWarnings(options_, Pull(), MedianSdDepth(trajectories_), &result_);
     return std::move(result_);
   }
 
  private:
+  void UseGoal(const std::optional<GoalSpec>& goal) {
+    goal_ = goal;
+    std::vector<std::string> names = free_;
+    if (goal) names.push_back(kGoalWeight);
+    // A goal that moves pushes all animals alike by its motion; what their cruising speeds have in
+    // common is then taken from their speeds.
+    whitening_.frame_effects =
+        goal.has_value() &&
+        rows_.size() >= kFrameEffects * static_cast<std::size_t>(result_.frames);
+    cruising_speed_ = whitening_.frame_effects ? MeanSpeed(flock_) : 0;
+    terms_ = MakeFlockTerms(model_, names, problem_.walls, goal, cruising_speed_);
+  }
+
+  void ChooseWhitening() {
+    whitening_.lagged = !options_.plain;
+    whitening_.own_speed = terms_.has_own_speed;
+    whitening_.stride = stride_;
+    if (!trajectories_.has_sd_depth) return;
+    whitening_.sight = [this](int frame, const Vec3d& position) {
+      return DepthDirection(problem_.camera, frame, position);
+    };
+  }
+
+  // Rows and weights for the terms as they are; u_ is what they leave over.
+  WhitenedFit Solve(const Progress& progress) {
+    rows_ = Rows(flock_, progress);
+    whitening_.depth_variance = 0;
+    WhitenedFit fit = SolveWhitened(whitening_, rows_);
+    if (fit.IsUsable() && fit.depth_variance > 0) {
+      whitening_.depth_variance = fit.depth_variance;
+      fit = SolveWhitened(whitening_, rows_);
+    }
+    if (fit.IsUsable()) {
+      u_ = Unexplained(rows_, fit.regression.estimate, whitening_.own_speed);
+    }
+    return fit;
+  }
+
+  double Pull() const { return problem_.walls ? 0 : PullToTheMiddle(rows_, u_); }
+
+  std::optional<double> Prediction() const {
+    const double share = options_.held_out > 0 ? options_.held_out : FitOptions().held_out;
+    const int held_out = static_cast<int>(share * result_.frames);
+    return HeldOutR2(whitening_, rows_, flock_.span().last - held_out + 1, flock_.animals());
+  }
+
+  // Fits with a goal where one is called for, and keeps it when it predicts better.
+  void SettleGoal(WhitenedFit* fit) {
+    const bool possible = model_.parameters.contains("goal_range");
+    if (!possible || problem_.goal == GoalChoice::kNone) return;
+    const bool may_go_without = problem_.goal == GoalChoice::kWhenHeld;
+    if (may_go_without && Pull() <= kConfining) return;
+    const std::optional<double> without = Prediction();
+    Vec3d mean;
+    for (const Vec3d& x : rows_.position) mean += x / static_cast<double>(rows_.size());
+    GoalSpec goal;
+    goal.position = problem_.goal == GoalChoice::kGiven ? problem_.goal_position : mean;
+    LocateGoal(goal, fit);
+    if (!may_go_without || (fit->IsUsable() && Prediction() > without)) return;
+    UseGoal({});
+    *fit = Solve({});
+  }
+
+  // The goal moves to where the mean of what is left over vanishes, unless its place was given.
+  void LocateGoal(GoalSpec goal, WhitenedFit* fit) {
+    const double range = model_.parameters.at("goal_range");
+    for (int round = 0; round < kGoalRounds; ++round) {
+      UseGoal(goal);
+      *fit = Solve({});
+      if (!fit->IsUsable() || problem_.goal == GoalChoice::kGiven) return;
+      const double weight = fit->regression.estimate.back();
+      if (!(weight > 0)) return;
+      Vec3d left;
+      double slope = 0;
+      for (std::size_t k = 0; k < rows_.size(); ++k) {
+        left += u_[k];
+        const double far = SquaredNorm(rows_.position[k] - goal.position) / (range * range);
+        slope += weight / std::sqrt(1 + far);
+      }
+      const Vec3d step = left / slope;
+      if (Norm(step) < kGoalTolerance * range) return;
+      goal.position += std::min(1.0, range / Norm(step)) * step;
+    }
+  }
+
   void ChooseRows() {
     window_ = options_.window > 0 ? options_.window : ChooseWindow(flock_, options_.longest_window);
     result_.window = window_;
@@ -160,10 +244,10 @@ class Fitter {
                            terms_, flock, middles_, progress);
   }
 
-  void SummarizeWeights(const MotionRows& rows, const WhitenedFit& fit) {
+  void SummarizeWeights(const WhitenedFit& fit) {
+    const MotionRows& rows = rows_;
     const std::vector<double>& theta = fit.regression.estimate;
     const std::size_t p = theta.size();
-    u_ = Unexplained(rows, theta, whitening_.own_speed);
     std::vector<double> rms(p);
     for (std::size_t c = 0; c < p; ++c) {
       std::vector<Vec3d> term;
@@ -172,11 +256,18 @@ class Fitter {
     }
     std::vector<Vec3d> explained;
     for (std::size_t k = 0; k < rows.size(); ++k) explained.push_back(rows.response[k] - u_[k]);
-    const double small = kSmallShare * std::sqrt(MeanSquare(explained));
+    result_.acceleration_sd = std::sqrt(MeanSquare(rows.response));
+    const double small =
+        kSmallShare * std::min(std::sqrt(MeanSquare(explained)), result_.acceleration_sd);
 
     WhiteningOptions least_squares = whitening_;
     least_squares.lagged = false;
     const WhitenedFit plain = SolveWhitened(least_squares, rows);
+    std::vector<bool> positive;
+    for (const std::string& name : terms_.free) positive.push_back(IsPositive(name));
+    const std::vector<double> values =
+        ProbableWeights(fit.regression, rms, result_.acceleration_sd, positive);
+    u_ = Unexplained(rows, values, whitening_.own_speed);
     for (std::size_t c = 0; c < p; ++c) {
       FittedWeight weight;
       weight.name = terms_.free[c];
@@ -186,53 +277,38 @@ class Fitter {
       const double half_width = 1.96 * weight.sd;
       weight.determined = std::isfinite(weight.sd) && fit.converged &&
                           (half_width < std::abs(weight.estimate) || half_width * rms[c] < small);
+      weight.value = values[c];
       // A term that never acted keeps the value it started with.
-      if (rms[c] == 0) weight.estimate = result_.parameters.model.parameters.at(weight.name);
-      weight.value = weight.estimate;
+      if (rms[c] == 0 && model_.parameters.contains(weight.name)) {
+        weight.value = weight.estimate = model_.parameters.at(weight.name);
+      }
       result_.weights.push_back(weight);
     }
     result_.best = BestDirection(fit.regression, rms);
     result_.worst = WorstDirection(fit.regression, rms);
   }
 
-  // Weights below the model's least value are set to 0, and the others fitted again.
-  void EnforceLegalRange(const MotionRows& rows) {
-    const std::size_t p = result_.weights.size();
-    std::vector<bool> drop(p, false);
-    const ModelInfo* const info = FindModel(result_.parameters.model.name);
-    const auto low = [&](const std::string& name) {
-      const auto found = std::find_if(info->parameters.begin(), info->parameters.end(),
-                                      [&](const ParameterInfo& i) { return i.name == name; });
-      return found->range.low;
-    };
-    for (bool again = true; again;) {
-      again = false;
-      for (std::size_t c = 0; c < p; ++c) {
-        FittedWeight& weight = result_.weights[c];
-        if (drop[c] || weight.value >= low(weight.name)) continue;
-        drop[c] = again = true;
-        weight.value = 0;
-      }
-      if (!again || std::count(drop.begin(), drop.end(), false) == 0) break;
-      const WhitenedFit fit = SolveWhitened(whitening_, rows.WithoutTerms(drop));
-      if (!fit.IsUsable()) break;
-      for (std::size_t c = 0, kept = 0; c < p; ++c) {
-        if (!drop[c]) result_.weights[c].value = fit.regression.estimate[kept++];
-      }
-    }
+  // May the model's weight be no less than 0?
+  bool IsPositive(const std::string& name) const {
+    const ModelInfo* const info = FindModel(model_.name);
+    const auto found = std::find_if(info->parameters.begin(), info->parameters.end(),
+                                    [&](const ParameterInfo& i) { return i.name == name; });
+    return found == info->parameters.end() || found->range.low == 0;
   }
 
-  void SummarizeRest(const MotionRows& rows, const WhitenedFit& fit) {
+  void SummarizeRest(const WhitenedFit& fit) {
+    const MotionRows& rows = rows_;
     result_.converged = fit.converged;
     result_.rows = static_cast<std::int64_t>(rows.size());
     result_.rows_mixed = rows.mixed;
     result_.rows_clamped = std::count(rows.clamped.begin(), rows.clamped.end(), true);
     result_.condition = fit.regression.condition;
-    result_.acceleration_sd = std::sqrt(MeanSquare(rows.response));
     result_.residual_sd = std::sqrt(MeanSquare(u_));
     result_.r2 = 1 - MeanSquare(u_) / std::max(MeanSquare(rows.response), 1e-300);
-    const NoiseEstimate noise =
-        EstimateNoise(rows, u_, fit.rho, flock_.dt(), flock_.dt() / std::max(1, options_.substeps));
+    std::vector<Vec3d> own = u_;
+    if (whitening_.frame_effects) RemoveFrameMeans(rows, &own);
+    const double step = flock_.dt() / std::max(1, options_.substeps);
+    const NoiseEstimate noise = EstimateNoise(rows, own, fit.rho, flock_.dt(), step);
     result_.noise_sd = noise.sd;
     result_.noise_time = noise.time;
     result_.diffusion = noise.diffusion;
@@ -248,7 +324,7 @@ class Fitter {
     double sum = 0, squares = 0, count = 0;
     for (const double factor : OwnFactors(rows, values, flock_.animals())) {
       if (std::isnan(factor)) continue;
-      const double speed = factor / (cruise / parameters.at("time_unit"));
+      const double speed = cruising_speed_ + factor / (cruise / parameters.at("time_unit"));
       sum += speed;
       squares += speed * speed;
       count += 1;
@@ -261,7 +337,7 @@ class Fitter {
   // Simulation extrapolation: what one more error of the stated size does.
   void AddDepthFactors(const WhitenedFit& fit) {
     const std::size_t p = terms_.free.size();
-    std::vector<double> sums(p), squares(p);
+    std::vector<double> sums(p), squares(p), shares(p);
     int draws = 0;
     for (int draw = 0; draw < options_.depth_draws; ++draw) {
       const DepthNoiseOptions noise{.time = options_.depth_error_time,
@@ -269,11 +345,13 @@ class Fitter {
                                     .seed = seed_,
                                     .draw = static_cast<std::uint32_t>(draw)};
       const Trajectories noisy = AddDepthNoise(noise, problem_.camera, fps_, trajectories_);
-      const WhitenedFit again =
-          SolveWhitened(whitening_, Rows(ObservedFlock(noisy, fps_, options_.bridged_gap), {}));
+      const MotionRows noisy_rows = Rows(ObservedFlock(noisy, fps_, options_.bridged_gap), {});
+      const WhitenedFit again = SolveWhitened(whitening_, noisy_rows);
       if (!again.IsUsable()) continue;
       ++draws;
+      const std::vector<double> changed = ChangedShares(rows_, noisy_rows);
       for (std::size_t c = 0; c < p; ++c) {
+        shares[c] += changed[c];
         const double factor = again.regression.estimate[c] / fit.regression.estimate[c];
         sums[c] += factor;
         squares[c] += factor * factor;
@@ -283,23 +361,32 @@ class Fitter {
     for (std::size_t c = 0; c < p; ++c) {
       FittedWeight& weight = result_.weights[c];
       const double mean = sums[c] / draws;
+      weight.depth_share = shares[c] / draws;
       if (!weight.determined || !std::isfinite(mean)) continue;
       weight.depth_factor = mean;
       weight.depth_factor_sd =
           std::sqrt(std::max(0.0, squares[c] / draws - mean * mean) / (draws - 1));
-      weight.determined = std::abs(mean - 1) < kDepthShare;
+      weight.determined = std::abs(mean - 1) < kDepthShare && *weight.depth_share < kDepthShare;
     }
   }
 
-  void WritePosterior(const WhitenedFit& fit) {
+  void WriteParametersOf(const WhitenedFit& fit) {
     auto& parameters = result_.parameters.model.parameters;
     ParameterPosterior& posterior = result_.parameters.posterior;
-    posterior.correlation = fit.regression.correlation;
-    for (const FittedWeight& weight : result_.weights) {
+    const std::size_t p = result_.weights.size(), model_weights = free_.size();
+    for (std::size_t c = 0; c < model_weights; ++c) {
+      const FittedWeight& weight = result_.weights[c];
       posterior.free.push_back(weight.name);
       posterior.sd.push_back(weight.sd);
       posterior.determined.push_back(weight.determined);
+      for (std::size_t d = 0; d < model_weights; ++d) {
+        posterior.correlation.push_back(fit.regression.correlation[c * p + d]);
+      }
       parameters[weight.name] = weight.value;
+    }
+    if (goal_ && result_.weights.back().value > 0) {
+      result_.parameters.goals = {*goal_};
+      result_.parameters.goals[0].weight = result_.weights.back().value;
     }
     if (parameters.contains("noise") && parameters.contains("time_unit")) {
       const double unit = parameters.at("time_unit");
@@ -316,8 +403,13 @@ class Fitter {
   std::uint64_t seed_;
   int threads_;
   ObservedFlock flock_;
+  ModelSpec model_;                // complete
+  std::vector<std::string> free_;  // of the model
+  std::optional<GoalSpec> goal_;
+  double cruising_speed_ = 0;  // that the terms count on [m/s]
   FlockTerms terms_;
   WhiteningOptions whitening_;
+  MotionRows rows_;
   int window_ = 1, stride_ = 1;
   std::vector<int> middles_;
   std::vector<Vec3d> u_;

@@ -8,7 +8,8 @@
 // biases least squares towards 0 without end, so the moments use instruments from earlier frames,
 // and what the model leaves over may last (whitened_rows.h). Standard errors allow errors in common
 // between animals and autocorrelation (lagged_regression.h).
-// Radii and tapers are given, not fitted. World frame, z up; metres, seconds.
+// A goal may move: only what it does to animals apart from each other is used, and its mean place
+// is estimated. Radii and tapers are given, not fitted. World frame, z up; metres, seconds.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_FIT_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_FIT_H_
@@ -60,23 +61,36 @@ void Describe(Visitor& visit, FitOptions& o) {
         "relative sd of the common scale, which sd_depth includes");
 }
 
+// A point that attracts all animals, besides the model's own terms (a scene's [[goal]]).
+enum class GoalChoice {
+  kNone,
+  kWhenHeld,  // sought when, without it, something holds the animals in place
+  kSought,
+  kGiven,
+};
+
 // What to fit: the model with values for all that is not free (defaults where it says nothing).
 struct FitProblem {
   ModelSpec model;
   std::vector<std::string> free;  // empty: every weight that the data can speak of
   std::optional<Region> walls;    // the box of the boundary term; without it the term is left out
-  std::optional<Camera> camera;   // where depth errors point; absent: eye at the world's origin
+  GoalChoice goal = GoalChoice::kWhenHeld;
+  Vec3d goal_position;           // when given [m]
+  std::optional<Camera> camera;  // where depth errors point; absent: eye at the world's origin
 };
 
 struct FittedWeight {
   std::string name;
-  double value = 0;         // as written: within the model's legal range
-  double estimate = 0;      // free of that bound
+  double value = 0;         // as written: ProbableWeights of fit_measures.h, never below 0
+  double estimate = 0;      // free of that
   double sd = 0;            // of the estimate; infinite when nothing is known
   bool determined = false;  // do the data say anything about it?
   double plain = 0;         // ordinary least squares, biased, for comparison
   // Factor by which another depth error of the stated size changes the estimate, and its sd.
   std::optional<double> depth_factor, depth_factor_sd;
+  // Share of the term's mean square that such an error changes: near 0 the term is seen, near 1 or
+  // above what it was computed from is noise, and the factor says nothing.
+  std::optional<double> depth_share;
 };
 
 // An eigenvector of the weights' covariance, each weight in units of the term's share of the
@@ -96,8 +110,8 @@ std::string StatusText(FitStatus status);
 
 struct FitResult {
   FitStatus status = FitStatus::kOk;
-  Parameters parameters;              // of the model, the posterior over the weights
-  std::vector<FittedWeight> weights;  // in the order of posterior.free
+  Parameters parameters;              // the model, the posterior over its weights, goal, walls
+  std::vector<FittedWeight> weights;  // in the order of posterior.free; last the goal's, if any
   int animals = 0, frames = 0;
   std::int64_t rows = 0;              // animals times frames used
   std::int64_t rows_clamped = 0;      // of these, whose speed limit acted

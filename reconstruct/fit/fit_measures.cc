@@ -11,6 +11,23 @@
 namespace flocklift {
 namespace {
 
+// Of the weights of `terms` times their scales.
+Eigen::MatrixXd CovarianceOf(const RegressionResult& regression, const std::vector<double>& scale,
+                             const std::vector<std::size_t>& terms) {
+  const std::size_t p = regression.sd.size();
+  const auto n = static_cast<Eigen::Index>(terms.size());
+  Eigen::MatrixXd covariance(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const std::size_t a = terms[static_cast<std::size_t>(i)];
+      const std::size_t b = terms[static_cast<std::size_t>(j)];
+      covariance(i, j) = regression.correlation[a * p + b] * regression.sd[a] * regression.sd[b] *
+                         scale[a] * scale[b];
+    }
+  }
+  return covariance;
+}
+
 struct ScaledCovariance {
   std::vector<std::size_t> terms;  // those of finite sd
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
@@ -22,15 +39,7 @@ ScaledCovariance Decompose(const RegressionResult& regression, const std::vector
     if (std::isfinite(regression.sd[c])) result.terms.push_back(c);
   }
   const auto n = static_cast<Eigen::Index>(result.terms.size());
-  Eigen::MatrixXd covariance(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const std::size_t a = result.terms[static_cast<std::size_t>(i)];
-      const std::size_t b = result.terms[static_cast<std::size_t>(j)];
-      covariance(i, j) = regression.correlation[a * rms.size() + b] * regression.sd[a] *
-                         regression.sd[b] * rms[a] * rms[b];
-    }
-  }
+  const Eigen::MatrixXd covariance = CovarianceOf(regression, rms, result.terms);
   if (n > 0) result.eigen.compute(covariance);
   return result;
 }
@@ -145,6 +154,71 @@ NoiseEstimate EstimateNoise(const MotionRows& rows, const std::vector<Vec3d>& u,
   noise.diffusion = 0.75 * width * variance;
   noise.sd = std::sqrt(2 * noise.diffusion / engine_step);
   return noise;
+}
+
+std::vector<double> ChangedShares(const MotionRows& rows, const MotionRows& other) {
+  const std::size_t width = rows.terms + 1;
+  std::vector<double> changes(rows.terms), squares(rows.terms), shares(rows.terms);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const std::int64_t found = other.Find(rows.frame[k], rows.animal[k]);
+    if (found < 0) continue;
+    for (std::size_t c = 0; c < rows.terms; ++c) {
+      const Vec3d& here = rows.features[k * width + c];
+      changes[c] += SquaredNorm(other.features[static_cast<std::size_t>(found) * width + c] - here);
+      squares[c] += SquaredNorm(here);
+    }
+  }
+  for (std::size_t c = 0; c < rows.terms; ++c) {
+    shares[c] = squares[c] > 0 ? changes[c] / squares[c] : 0;
+  }
+  return shares;
+}
+
+std::vector<double> ProbableWeights(const RegressionResult& regression,
+                                    const std::vector<double>& rms, double acceleration_rms,
+                                    const std::vector<bool>& positive) {
+  std::vector<double> weights = regression.estimate;
+  std::vector<std::size_t> terms;
+  for (std::size_t c = 0; c < weights.size(); ++c) {
+    if (std::isfinite(regression.sd[c])) terms.push_back(c);
+  }
+  if (terms.empty() || acceleration_rms <= 0) return weights;
+  // In units of the prior's sd: prior I, likelihood N(t, V), so mean t - V (I + V)^-1 t.
+  std::vector<double> scale(weights.size());
+  for (const std::size_t c : terms) scale[c] = rms[c] / acceleration_rms;
+  const Eigen::MatrixXd v = CovarianceOf(regression, scale, terms);
+  const auto n = static_cast<Eigen::Index>(terms.size());
+  Eigen::VectorXd t(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::size_t c = terms[static_cast<std::size_t>(k)];
+    t[k] = regression.estimate[c] * scale[c];
+  }
+  const Eigen::LDLT<Eigen::MatrixXd> sum(v + Eigen::MatrixXd::Identity(n, n));
+  const Eigen::VectorXd mean = t - v * sum.solve(t);
+  const Eigen::MatrixXd covariance = v - v * sum.solve(v);
+  // Negative ones are held at 0, one after the other, and the rest is conditioned on it.
+  std::vector<Eigen::Index> held;
+  Eigen::VectorXd mode = mean;
+  for (;;) {
+    Eigen::Index lowest = -1;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (!positive[terms[static_cast<std::size_t>(k)]] || mode[k] >= 0) continue;
+      if (std::find(held.begin(), held.end(), k) != held.end()) continue;
+      if (lowest < 0 || mode[k] < mode[lowest]) lowest = k;
+    }
+    if (lowest < 0) break;
+    held.push_back(lowest);
+    const Eigen::MatrixXd of_held = covariance(held, held);
+    const Eigen::VectorXd at_held = mean(held);
+    mode = mean -
+           covariance(Eigen::all, held) * of_held.completeOrthogonalDecomposition().solve(at_held);
+  }
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const std::size_t c = terms[static_cast<std::size_t>(k)];
+    const bool at_zero = std::find(held.begin(), held.end(), k) != held.end();
+    weights[c] = at_zero ? 0 : mode[k] / scale[c];
+  }
+  return weights;
 }
 
 FitDirection BestDirection(const RegressionResult& regression, const std::vector<double>& rms) {

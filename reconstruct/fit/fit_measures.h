@@ -44,6 +44,19 @@ struct NoiseEstimate {
 NoiseEstimate EstimateNoise(const MotionRows& rows, const std::vector<Vec3d>& u,
                             const std::optional<double>& rho, double dt, double engine_step);
 
+// Of each term's mean square, the share by which other positions of the same animals change it:
+// mean |X' - X|^2 / mean |X|^2 over the rows that both have.
+std::vector<double> ChangedShares(const MotionRows& rows, const MotionRows& other);
+
+// The values to fly by: the most probable weights when an estimate counts as N(theta, covariance)
+// and, beforehand, no term is thought to make more than all the acceleration there is, N(0, (a /
+// rms)^2), and weights marked `positive` not to be negative. Where the data determine a weight this
+// changes nothing; where they do not, it keeps a flock from flying apart. A weight of infinite sd
+// stays.
+std::vector<double> ProbableWeights(const RegressionResult& regression,
+                                    const std::vector<double>& rms, double acceleration_rms,
+                                    const std::vector<bool>& positive);
+
 // Eigenvectors of the covariance of the weights times their terms' rms [m/s^2], smallest or largest
 // eigenvalue; weights of infinite sd have no part.
 FitDirection BestDirection(const RegressionResult& regression, const std::vector<double>& rms);

@@ -51,13 +51,14 @@ void AddWarnings(const FitOptions& options, double pull, double median_sd_depth,
   std::string undetermined, negative, factors;
   for (const FittedWeight& weight : result->weights) {
     if (!weight.determined) undetermined += (undetermined.empty() ? " " : ", ") + weight.name;
-    if (weight.value != weight.estimate && weight.value == 0) {
+    if (weight.estimate < 0 && weight.value == 0) {
       negative += fmt::format("{} {} ({:.2g} +- {:.2g})", negative.empty() ? "" : ",", weight.name,
                               weight.estimate, weight.sd);
     }
     if (weight.depth_factor) {
-      factors += fmt::format("{} {} by {:.2f} +- {:.2f}", factors.empty() ? "" : ",", weight.name,
-                             *weight.depth_factor, *weight.depth_factor_sd);
+      factors += fmt::format("{} {} by {:.2f} +- {:.2f} (error is {:.0f} % of its term)",
+                             factors.empty() ? "" : ",", weight.name, *weight.depth_factor,
+                             *weight.depth_factor_sd, 100 * *weight.depth_share);
     }
   }
   if (!undetermined.empty()) warn("the data do not determine" + undetermined);
@@ -82,8 +83,8 @@ void AddWarnings(const FitOptions& options, double pull, double median_sd_depth,
   } else if (median_sd_depth > 0) {
     warn(
         fmt::format("depth errors (median sd {:.2g} m) distort the weights beyond their standard "
-                    "deviations: one more error of that size multiplies{}; the true weights may "
-                    "be off by as much again",
+                    "deviations: one more error of that size multiplies{}; the first one "
+                    "may have done as much or more",
                     median_sd_depth, factors));
   }
 }

@@ -11,6 +11,7 @@
 #include "simulate/core/suggest.h"
 #include "simulate/flock/cell_grid.h"
 #include "simulate/flock/model.h"
+#include "simulate/forces/attraction.h"
 #include "simulate/forces/linear.h"
 
 namespace flocklift {
@@ -33,8 +34,13 @@ Slot SlotOf(const std::vector<std::string>& free, const std::string& name, doubl
 class BoidsTerms {
  public:
   BoidsTerms(const BoidsParameters<double>& given, const std::vector<std::string>& free,
-             const std::optional<Region>& walls)
-      : parameters_(InSeconds(given)), columns_(free.size() + 2), walls_(walls) {
+             const std::optional<Region>& walls, const std::optional<GoalSpec>& goal,
+             double cruising_speed)
+      : parameters_(InSeconds(given)),
+        columns_(free.size() + 2),
+        walls_(walls),
+        goal_(goal),
+        cruising_speed_(cruising_speed) {
     BoidsParameters<double> ones = given;
     ones.alpha_s = ones.alpha_c = ones.alpha_a = ones.alpha_b = ones.cruise = ones.level = 1;
     const BoidsParameters<double> unit = InSeconds(ones);
@@ -44,6 +50,7 @@ class BoidsTerms {
     boundary_ = SlotOf(free, "alpha_b", unit.alpha_b, parameters_.alpha_b);
     cruise_ = SlotOf(free, "cruise", unit.cruise, parameters_.cruise);
     level_ = SlotOf(free, "level", unit.level, parameters_.level);
+    if (goal) attraction_ = SlotOf(free, kGoalWeight, 1, goal->weight);
   }
 
   void operator()(std::span<const Vec3d> x, std::span<const Vec3d> v, std::span<Vec3d> out) const {
@@ -55,7 +62,11 @@ class BoidsTerms {
         row[boundary_.column] += Boundary::At(
             {boundary_.gain, walls_->low, walls_->high, parameters_.wall_taper}, x[i], v[i]);
       }
-      row[cruise_.column] += CruiseSpeed::At({cruise_.gain, 0.0}, x[i], v[i]);
+      if (goal_) {
+        row[attraction_.column] +=
+            Attraction::At({attraction_.gain, goal_->position, parameters_.goal_range}, x[i], v[i]);
+      }
+      row[cruise_.column] += CruiseSpeed::At({cruise_.gain, cruising_speed_}, x[i], v[i]);
       row[level_.column] += Level::At({level_.gain}, x[i], v[i]);
       row[columns_ - 1] =
           CruiseSpeed::At({1.0, 1.0}, x[i], v[i]) - CruiseSpeed::At({1.0, 0.0}, x[i], v[i]);
@@ -118,7 +129,9 @@ class BoidsTerms {
   BoidsParameters<double> parameters_;  // in seconds
   std::size_t columns_;
   std::optional<Region> walls_;
-  Slot separation_, cohesion_, alignment_, boundary_, cruise_, level_;
+  std::optional<GoalSpec> goal_;
+  double cruising_speed_;  // [m/s]
+  Slot separation_, cohesion_, alignment_, boundary_, cruise_, level_, attraction_;
 };
 
 class LinearTerms {
@@ -169,9 +182,11 @@ std::vector<std::string> LinearWeights(const std::string& model) {
 }
 
 FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>& free,
-                          const std::optional<Region>& walls) {
+                          const std::optional<Region>& walls, const std::optional<GoalSpec>& goal,
+                          double cruising_speed) {
   const ModelParameters resolved = ResolveModel(model);
-  const std::vector<std::string> weights = LinearWeights(model.name);
+  std::vector<std::string> weights = LinearWeights(model.name);
+  if (goal) weights.push_back(kGoalWeight);
   for (const std::string& name : free) {
     if (std::find(weights.begin(), weights.end(), name) != weights.end()) continue;
     throw InputError(model.where, 0, "`" + name + "` of model " + model.name + " cannot be freed",
@@ -189,7 +204,7 @@ FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>
         boids->cruise > 0 || std::find(free.begin(), free.end(), "cruise") != free.end();
     terms.min_speed = seconds.s_min;
     terms.max_speed = seconds.s_max;
-    terms.evaluate = BoidsTerms(*boids, free, walls);
+    terms.evaluate = BoidsTerms(*boids, free, walls, goal, cruising_speed);
   } else if (const auto* linear = std::get_if<LinearParameters<double>>(&resolved)) {
     terms.evaluate = LinearTerms(*linear, free);
   } else {

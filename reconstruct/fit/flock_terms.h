@@ -4,8 +4,9 @@
 // A model's right-hand side, taken apart into what is linear in its weights:
 //   a_i = sum_p theta_p f_p(i) + known(i) + c_i g(i)
 // f_p is the term of weight p with weight 1, `known` the terms whose weights are given, and c_i an
-// unknown of each animal: cruise times its own cruising speed, g = v/|v|. All by the same templated
-// terms that the simulator runs.
+// unknown of each animal: cruise times its own cruising speed less `cruising_speed`, g = v/|v|. All
+// by the same templated terms that the simulator runs. A point that attracts (a scene's [[goal]])
+// is one more term, whose weight has the name kGoalWeight.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_FLOCK_TERMS_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_FLOCK_TERMS_H_
@@ -34,14 +35,18 @@ struct FlockTerms {
   std::size_t columns() const { return free.size() + 2; }
 };
 
+inline constexpr const char* kGoalWeight = "goal";  // [1/s^2]
+
 // The weights of a model that FitModel can free. Empty for a model that moves positions directly.
 std::vector<std::string> LinearWeights(const std::string& model);
 
 // `model` gives every value that is not free, `walls` the box of the boundary term (without it the
-// term is left out, and so must be its weight). Throws InputError for a name that is no weight of
-// the model.
+// term is left out, and so must be its weight), `goal` the point that attracts, at rest, if any,
+// `cruising_speed` what the cruise term takes all animals' own speeds for [m/s]. Throws InputError
+// for a name that is no weight of the model.
 FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>& free,
-                          const std::optional<Region>& walls);
+                          const std::optional<Region>& walls,
+                          const std::optional<GoalSpec>& goal = {}, double cruising_speed = 0);
 
 }  // namespace flocklift
 

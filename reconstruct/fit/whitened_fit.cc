@@ -60,7 +60,7 @@ double DepthVariance(const RegressionRows& rows, const std::vector<double>& step
 WhitenedFit SolveWhitened(const WhiteningOptions& options, const MotionRows& rows) {
   WhitenedFit fit;
   // The weights, and the mean of the animals' own unknowns.
-  const std::size_t p = rows.terms + (options.own_speed ? 1 : 0);
+  const std::size_t p = rows.terms + (HasMeanOwn(options) ? 1 : 0);
   std::vector<double> depth_sd;
   RegressionRows white =
       WhitenRows(options, rows, std::vector<double>(p, 0.0), 0, false, &depth_sd);
@@ -72,7 +72,8 @@ WhitenedFit SolveWhitened(const WhiteningOptions& options, const MotionRows& row
   if (!options.lagged) return fit;
 
   const int lag = 2 * rows.window + 3;
-  const std::vector<Vec3d> u = Unexplained(rows, fit.regression.estimate, options.own_speed);
+  std::vector<Vec3d> u = Unexplained(rows, fit.regression.estimate, options.own_speed);
+  if (options.frame_effects) RemoveFrameMeans(rows, &u);
   const LagCorrelation near = CorrelationAtLag(rows, u, lag);
   if (near.pairs == 0 || near.value < 5 / std::sqrt(3.0 * static_cast<double>(near.pairs))) {
     return fit;

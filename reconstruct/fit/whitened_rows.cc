@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace flocklift {
 namespace {
+
+constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
 
 // One whitened row.
 struct Row {
@@ -68,6 +71,25 @@ void DemeanInstruments(const std::vector<std::size_t>& indices, std::size_t own_
   }
 }
 
+// Takes each frame's mean off response, features and instruments; rows come frame by frame.
+void RemoveFrameMeans(const MotionRows& motion, std::vector<Row>* rows) {
+  for (std::size_t first = 0, last = 0; first < rows->size(); first = last) {
+    const int frame = motion.frame[(*rows)[first].source];
+    while (last < rows->size() && motion.frame[(*rows)[last].source] == frame) ++last;
+    const auto center = [&](const auto& value_of) {
+      Vec3d mean;
+      for (std::size_t k = first; k < last; ++k) mean += value_of((*rows)[k]);
+      mean = mean / static_cast<double>(last - first);
+      for (std::size_t k = first; k < last; ++k) value_of((*rows)[k]) -= mean;
+    };
+    center([](Row& row) -> Vec3d& { return row.response; });
+    for (std::size_t c = 0; c < (*rows)[first].features.size(); ++c) {
+      center([c](Row& row) -> Vec3d& { return row.features[c]; });
+      center([c](Row& row) -> Vec3d& { return row.instruments[c]; });
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<int> FramesBefore(int window, bool with_rho) {
@@ -78,7 +100,7 @@ std::vector<int> FramesBefore(int window, bool with_rho) {
 RegressionRows WhitenRows(const WhiteningOptions& options, const MotionRows& motion,
                           const std::vector<double>& theta, double rho, bool with_rho,
                           std::vector<double>* depth_sd) {
-  const std::size_t width = motion.terms + 1, p = motion.terms + (options.own_speed ? 1 : 0);
+  const std::size_t width = motion.terms + 1, p = motion.terms + (HasMeanOwn(options) ? 1 : 0);
   const int shift = motion.window, lag = 3 * motion.window + 3;
   const auto feature = [&](std::size_t k, std::size_t c) { return motion.features[k * width + c]; };
   const std::vector<Vec3d>& near = options.lagged ? motion.near : motion.features;
@@ -116,10 +138,12 @@ RegressionRows WhitenRows(const WhiteningOptions& options, const MotionRows& mot
     rows.push_back(std::move(row));
   }
   if (options.own_speed && options.lagged) {
+    const std::size_t own_column = HasMeanOwn(options) ? motion.terms : kNoColumn;
     for (const auto& indices : ByAnimal(rows, motion)) {
-      if (!indices.empty()) DemeanInstruments(indices, motion.terms, &rows);
+      if (!indices.empty()) DemeanInstruments(indices, own_column, &rows);
     }
   }
+  if (options.frame_effects) RemoveFrameMeans(motion, &rows);
 
   RegressionRows out;
   out.terms = static_cast<int>(p + (with_rho ? 1 : 0));
@@ -165,6 +189,15 @@ std::vector<Vec3d> Unexplained(const MotionRows& rows, const std::vector<double>
     u[k] -= (products[animal] / squares[animal]) * rows.features[k * width + rows.terms];
   }
   return u;
+}
+
+void RemoveFrameMeans(const MotionRows& rows, std::vector<Vec3d>* u) {
+  for (std::size_t first = 0, last = 0; first < rows.size(); first = last) {
+    Vec3d mean;
+    for (; last < rows.size() && rows.frame[last] == rows.frame[first]; ++last) mean += (*u)[last];
+    mean = mean / static_cast<double>(last - first);
+    for (std::size_t k = first; k < last; ++k) (*u)[k] -= mean;
+  }
 }
 
 LagCorrelation CorrelationAtLag(const MotionRows& rows, const std::vector<Vec3d>& u, int lag) {

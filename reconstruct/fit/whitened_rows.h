@@ -13,6 +13,9 @@
 // - rho of it), and what would correlate with it, the instruments' mean along n over the animal's
 // *earlier* frames, is taken off them. Demeaning over all frames would bias short tracks (Nickell
 // 1981); this asks that the animals be in their steady state (Blundell and Bond 1998).
+//
+// With frame effects, each frame's mean over the animals is taken off everything: whatever pushes
+// all animals of a frame alike, such as the motion of a point that attracts them, drops out.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_WHITENED_ROWS_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_WHITENED_ROWS_H_
@@ -26,22 +29,28 @@
 namespace flocklift {
 
 struct WhiteningOptions {
-  bool lagged = true;         // false: plain least squares of y on X, biased
-  bool own_speed = false;     // take out the c of each animal
-  int stride = 1;             // uses the frames that it divides
-  double depth_variance = 0;  // variance of e along the line of sight per variance of depth,
-                              // relative to its variance across [1/m^2]
+  bool lagged = true;          // false: plain least squares of y on X, biased
+  bool frame_effects = false;  // then the mean c counts as 0: it could not be told apart
+  bool own_speed = false;      // take out the c of each animal
+  int stride = 1;              // uses the frames that it divides
+  double depth_variance = 0;   // variance of e along the line of sight per variance of depth,
+                               // relative to its variance across [1/m^2]
   // Direction from the eye to a position in a frame; absent: no weights.
   std::function<Vec3d(int frame, const Vec3d& position)> sight;
 };
+
+// Is the mean of c an unknown?
+inline bool HasMeanOwn(const WhiteningOptions& options) {
+  return options.own_speed && !options.frame_effects;
+}
 
 // Frames before the middle one that a row of a given rho needs rows of.
 std::vector<int> FramesBefore(int window, bool with_rho);
 
 // The regression for a step from (theta, rho): response e, three equations a row (along the line of
-// sight first); features of theta, which ends with the mean c when own_speed, one more for rho when
-// `with_rho`. `depth_sd`, if not null, takes the sd of depth of each equation, 0 across the line of
-// sight [m].
+// sight first); features of theta, which ends with the mean c when HasMeanOwn, one more for rho
+// when `with_rho`. `depth_sd`, if not null, takes the sd of depth of each equation, 0 across the
+// line of sight [m].
 RegressionRows WhitenRows(const WhiteningOptions& options, const MotionRows& rows,
                           const std::vector<double>& theta, double rho, bool with_rho,
                           std::vector<double>* depth_sd = nullptr);
@@ -49,6 +58,9 @@ RegressionRows WhitenRows(const WhiteningOptions& options, const MotionRows& row
 // u_k = y_k - X_k theta, theta without c; each animal's c taken out by its rows when own_speed.
 std::vector<Vec3d> Unexplained(const MotionRows& rows, const std::vector<double>& theta,
                                bool own_speed);
+
+// Takes each frame's mean off.
+void RemoveFrameMeans(const MotionRows& rows, std::vector<Vec3d>* u);
 
 // Correlation of the same animal's u at frames k and k - lag, and how many such pairs there are.
 struct LagCorrelation {

@@ -286,11 +286,54 @@ TEST(Fit, ATermThatNeverActsIsNotDetermined) {
   EXPECT_TRUE(Warns(result, "do not determine alpha_s"));
 }
 
+TEST(Fit, AMovingPointThatAttractsIsFoundWhenSomethingHoldsTheFlock) {
+  Scene scene = BoidsScene(3);
+  scene.duration = 20;
+  scene.warmup = 10;
+  scene.box = {{-1e6, -1e6, -1e6}, {1e6, 1e6, 1e6}};
+  scene.species[0].start = Region{{-8, -8, 4}, {8, 8, 20}};
+  GoalSpec goal;
+  goal.position = {3, -2, 12};
+  goal.radius = 3;
+  goal.period = 9;
+  scene.goals = {goal};
+  FitProblem problem = ProblemOf(scene);
+  problem.walls.reset();
+  const Trajectories flock = Fly(scene);
+  const FitResult result = Fit(problem, flock);
+  ASSERT_EQ(result.parameters.goals.size(), 1U);
+  EXPECT_LT(Norm(result.parameters.goals[0].position - goal.position), 1.5);
+  EXPECT_EQ(result.weights.back().name, "goal");
+  EXPECT_EQ(result.parameters.posterior.free.back(), "level");  // the model's weights alone
+  EXPECT_LT(std::abs(result.weights.back().estimate - 1), 3 * result.weights.back().sd);
+  // In a dense flock a common goal and cohesion over all differ little; their sum is clear.
+  EXPECT_NEAR(result.weights.back().estimate + WeightOf(result, "alpha_c").estimate, 1.1, 0.4);
+  EXPECT_GT(result.worst.sd, 5 * result.best.sd);
+  for (const FittedWeight& weight : result.weights) {
+    if (weight.name == "goal") continue;
+    const double truth = scene.species[0].model.parameters.at(weight.name);
+    EXPECT_LT(std::abs(weight.estimate - truth), 3 * weight.sd) << weight.name;
+  }
+  problem.goal = GoalChoice::kNone;
+  const FitResult without = Fit(problem, flock);
+  EXPECT_TRUE(without.parameters.goals.empty());
+  EXPECT_TRUE(Warns(without, "holds the animals in place"));
+  EXPECT_LT(without.r2, result.r2);
+}
+
+TEST(Fit, NoPointIsFoundWhereNothingAttracts) {
+  const Scene scene = BoidsScene(5);
+  const FitResult result = Fit(ProblemOf(scene), Fly(scene));
+  EXPECT_TRUE(result.parameters.goals.empty());
+  EXPECT_TRUE(result.parameters.walls.has_value());
+}
+
 TEST(Fit, WallsThatAreNotGivenAreMissed) {
   Scene scene = BoidsScene(9);
   scene.duration = 20;
   FitProblem problem = ProblemOf(scene);
   problem.walls.reset();
+  problem.goal = GoalChoice::kNone;
   const FitResult result = Fit(problem, Fly(scene));
   EXPECT_EQ(result.weights.size(), 5U);  // without alpha_b
   EXPECT_TRUE(Warns(result, "give them"));
