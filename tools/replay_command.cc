@@ -66,6 +66,7 @@ nlohmann::ordered_json DivergenceSeries(const std::vector<Divergence>& divergenc
     series.push_back({{"time", d.time},
                       {"animals", d.animals},
                       {"model_rms", d.model_rms},
+                      {"noiseless_rms", d.noiseless_rms},
                       {"straight_on_rms", d.straight_on_rms}});
     if (!guided) series.back()["perturbed_rms"] = d.perturbed_rms;
   }
@@ -129,7 +130,8 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
   if (stage.IsUpToDate()) return;
 
   Trajectories reconstruction = ReadTrajectories(command.trajectories);
-  const Parameters parameters = ReadParameters(command.parameters);
+  Parameters parameters = ReadParameters(command.parameters);
+  if (walls) parameters.walls = walls;
   std::optional<double> fps = common.fps ? common.fps : reconstruction.fps;
   if (!fps && camera) fps = camera->fps;
   if (!fps) {
@@ -138,8 +140,8 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
   if (!reconstruction.has_velocity) ComputeVelocities(*fps, &reconstruction);
 
   const Progress progress = stage.BeginPhase("fly");
-  const ReplayResult result = Replay(command.replay, parameters.model, walls, reconstruction, *fps,
-                                     common.seed, common.ThreadCount(), progress);
+  const ReplayResult result = Replay(command.replay, parameters, reconstruction, *fps, common.seed,
+                                     common.ThreadCount(), progress);
   if (camera && !command.no_video) {
     const Progress film = stage.BeginPhase("film");
     FilmTrajectories(common.out / "video.mp4", FromFrameOne(result.replayed, result.start_frame),

@@ -20,7 +20,7 @@ struct ReplayCommand {
   std::filesystem::path camera = {};  // empty: no video
   bool no_video = false;
   double wingspan = 0.7;   // of the animals in the video [m]
-  std::string walls = {};  // "X0,Y0,Z0,X1,Y1,Z1" [m]; empty: none
+  std::string walls = {};  // "X0,Y0,Z0,X1,Y1,Z1" [m]; empty: those of the parameters
   ReplayOptions replay = {};
 };
 

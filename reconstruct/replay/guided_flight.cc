@@ -20,15 +20,20 @@ double CruiseRate(const ModelSpec& model) {
   return boids == nullptr ? 0 : InSeconds(*boids).cruise;
 }
 
+std::optional<GoalSpec> FirstGoal(const Parameters& parameters) {
+  if (parameters.goals.empty()) return std::nullopt;
+  return parameters.goals.front();
+}
+
 }  // namespace
 
-GuidedFlight::GuidedFlight(const ModelSpec& model, const std::optional<Region>& walls, double alpha,
-                           double pull_time, std::vector<Vec3d> position,
-                           std::vector<Vec3d> velocity, std::vector<double> cruising_speed)
-    : terms_(MakeFlockTerms(model, {}, walls)),
+GuidedFlight::GuidedFlight(const Parameters& parameters, double alpha, double pull_time,
+                           std::vector<Vec3d> position, std::vector<Vec3d> velocity,
+                           std::vector<double> cruising_speed)
+    : terms_(MakeFlockTerms(parameters.model, {}, parameters.walls, FirstGoal(parameters))),
       alpha_(alpha),
       pull_time_(pull_time),
-      cruise_(CruiseRate(model)),
+      cruise_(CruiseRate(parameters.model)),
       position_(std::move(position)),
       velocity_(std::move(velocity)),
       cruising_speed_(std::move(cruising_speed)),

@@ -5,8 +5,9 @@
 // 2019 between internal and external force:
 //   a_i = alpha (model) + (1 - alpha) ( w^2 (p_i - x_i) + 2 w (q_i - v_i) ),   w = 1 / pull_time
 // with p_i, q_i position and velocity on the path: a critically damped spring. An animal without a
-// path at a time flies by the model alone. The model's noise is left out. The terms and the step
-// are the simulator's (flock_terms.h, integrator.h), in double precision. Metres, seconds.
+// path at a time flies by the model alone. The model's noise is left out, and of goals only the
+// first counts, at rest. The terms and the step are the simulator's (flock_terms.h, integrator.h),
+// in double precision. Metres, seconds.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_REPLAY_GUIDED_FLIGHT_H_
 #define FLOCKLIFT_RECONSTRUCT_REPLAY_GUIDED_FLIGHT_H_
@@ -15,7 +16,7 @@
 #include <vector>
 
 #include "reconstruct/fit/flock_terms.h"
-#include "simulate/core/scene.h"
+#include "simulate/core/parameters.h"
 
 namespace flocklift {
 
@@ -26,8 +27,8 @@ struct PathPoint {
 class GuidedFlight {
  public:
   // `cruising_speed`: each animal's own [m/s]. Throws InputError for a model without accelerations.
-  GuidedFlight(const ModelSpec& model, const std::optional<Region>& walls, double alpha,
-               double pull_time, std::vector<Vec3d> position, std::vector<Vec3d> velocity,
+  GuidedFlight(const Parameters& parameters, double alpha, double pull_time,
+               std::vector<Vec3d> position, std::vector<Vec3d> velocity,
                std::vector<double> cruising_speed);
 
   // `paths`: one per animal, at the start of the step.

@@ -10,6 +10,7 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <variant>
 
 #include "reconstruct/metrics/flock_statistics.h"
 #include "reconstruct/replay/guided_flight.h"
@@ -149,10 +150,9 @@ class FreeFlight : public Flight {
 
 class PulledFlight : public Flight {
  public:
-  PulledFlight(const ReplayOptions& options, const ModelSpec& model,
-               const std::optional<Region>& walls, const Trajectories& reconstruction,
-               const Start& start, int frame, double fps)
-      : flight_(model, walls, options.alpha, options.pull_time, start.swarm.position,
+  PulledFlight(const ReplayOptions& options, const Parameters& parameters,
+               const Trajectories& reconstruction, const Start& start, int frame, double fps)
+      : flight_(parameters, options.alpha, options.pull_time, start.swarm.position,
                 start.swarm.velocity, start.swarm.cruising_speed),
         reconstruction_(reconstruction),
         start_(start),
@@ -190,6 +190,19 @@ class PulledFlight : public Flight {
   double fps_;
 };
 
+struct SetNoise {
+  double value;
+  void operator()(BoidsParameters<double>& p) const { p.noise = value; }
+  void operator()(LinearParameters<double>& p) const { p.diffusion = value; }
+  template <typename Noiseless>  // or whose noise is a field in space
+  void operator()(Noiseless&) const {}
+};
+
+Swarm Noiseless(Swarm swarm) {
+  std::visit(SetNoise{0}, swarm.model);
+  return swarm;
+}
+
 Swarm Perturbed(Swarm swarm, std::uint64_t seed) {
   for (std::size_t k = 0; k < swarm.position.size(); ++k) {
     Rng rng(seed, (std::uint64_t{1} << 63) | k);
@@ -206,33 +219,35 @@ double RmsDistance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
 
 }  // namespace
 
-ReplayResult Replay(const ReplayOptions& options, const ModelSpec& model,
-                    const std::optional<Region>& walls, const Trajectories& reconstruction,
-                    double fps, std::uint64_t seed, int threads, const Progress& progress) {
+ReplayResult Replay(const ReplayOptions& options, const Parameters& parameters,
+                    const Trajectories& reconstruction, double fps, std::uint64_t seed, int threads,
+                    const Progress& progress) {
   CheckOptions(options);
   Check(fps > 0, "fps must be positive to replay");
   Check(reconstruction.has_velocity, "a replay starts from velocities: fill them first");
   ReplayResult result;
   result.start_frame = options.frame > 0 ? options.frame : FullestFrame(reconstruction);
   Start start = MakeStart(reconstruction, result.start_frame, options.count, seed);
-  start.swarm.model = ResolveModel(model);
+  start.swarm.model = ResolveModel(parameters.model);
   const int frames = options.duration > 0 ? static_cast<int>(std::lround(options.duration * fps))
                                           : SpanOf(reconstruction).last - result.start_frame;
 
   World world{.seed = seed,
               .dt = 1 / (fps * options.substeps),
               .time = (result.start_frame - 1) / fps,
-              .goals = {},
+              .goals = parameters.goals,
               .predators = {}};
-  if (walls) world.box = *walls;
-  std::unique_ptr<Flight> flight, perturbed;
+  if (parameters.walls) world.box = *parameters.walls;
+  std::unique_ptr<Flight> flight, perturbed, noiseless;
   if (options.alpha < 1) {
-    flight = std::make_unique<PulledFlight>(options, model, walls, reconstruction, start,
+    flight = std::make_unique<PulledFlight>(options, parameters, reconstruction, start,
                                             result.start_frame, fps);
   } else {
     flight = std::make_unique<FreeFlight>(world, start.swarm, options.substeps, threads);
     perturbed = std::make_unique<FreeFlight>(world, Perturbed(start.swarm, seed), options.substeps,
                                              threads);
+    noiseless =
+        std::make_unique<FreeFlight>(world, Noiseless(start.swarm), options.substeps, threads);
   }
   result.replayed.fps = fps;
   result.replayed.has_velocity = result.replayed.has_orientation = true;
@@ -244,10 +259,13 @@ ReplayResult Replay(const ReplayOptions& options, const ModelSpec& model,
     const int frame = result.start_frame + k;
     const FlockState state = flight->NextFrame();
     Append(state, frame, &result.replayed);
-    Divergence divergence =
-        Compare(StateAtFrame(reconstruction, frame), start.id, state, start.swarm, k / fps);
+    const FlockState there = StateAtFrame(reconstruction, frame);
+    Divergence divergence = Compare(there, start.id, state, start.swarm, k / fps);
+    divergence.noiseless_rms = divergence.model_rms;
     if (perturbed) {
       divergence.perturbed_rms = RmsDistance(state.position, perturbed->NextFrame().position);
+      divergence.noiseless_rms =
+          Compare(there, start.id, noiseless->NextFrame(), start.swarm, k / fps).model_rms;
     }
     if (divergence.animals > 0) result.divergence.push_back(divergence);
     Report(progress, k, frames);

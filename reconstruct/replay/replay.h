@@ -12,12 +12,11 @@
 #define FLOCKLIFT_RECONSTRUCT_REPLAY_REPLAY_H_
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "simulate/core/options.h"
+#include "simulate/core/parameters.h"
 #include "simulate/core/progress.h"
-#include "simulate/core/scene.h"
 #include "simulate/core/trajectory.h"
 
 namespace flocklift {
@@ -51,6 +50,7 @@ struct Divergence {
   double time = 0;             // since the start [s]
   int animals = 0;             // in both
   double model_rms = 0;        // [m]
+  double noiseless_rms = 0;    // of the model without its noise: what it expects [m]
   double straight_on_rms = 0;  // of flight at the starting velocity [m]
   // Between this flight and one whose start was moved by kPerturbation per axis; 0 when guided [m].
   double perturbed_rms = 0;
@@ -64,12 +64,11 @@ struct ReplayResult {
   std::vector<Divergence> divergence;  // by frame, the start left out
 };
 
-// Cruising speeds are each animal's mean speed in the reconstruction. `walls`: the box of the
-// model's boundary term, if any. Throws InputError for a model or parameter that does not exist,
-// std::invalid_argument for a frame without animals.
-ReplayResult Replay(const ReplayOptions& options, const ModelSpec& model,
-                    const std::optional<Region>& walls, const Trajectories& reconstruction,
-                    double fps, std::uint64_t seed, int threads, const Progress& progress = {});
+// Cruising speeds are each animal's mean speed in the reconstruction. Throws InputError for a model
+// or parameter that does not exist, std::invalid_argument for a frame without animals.
+ReplayResult Replay(const ReplayOptions& options, const Parameters& parameters,
+                    const Trajectories& reconstruction, double fps, std::uint64_t seed, int threads,
+                    const Progress& progress = {});
 
 }  // namespace flocklift
 

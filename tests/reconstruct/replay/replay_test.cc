@@ -18,6 +18,13 @@ namespace {
 
 constexpr double kFps = 30;
 
+Parameters By(const ModelSpec& model, const std::optional<Region>& walls = {}) {
+  Parameters parameters;
+  parameters.model = model;
+  parameters.walls = walls;
+  return parameters;
+}
+
 // Boids among themselves, no walls near, no goals, neither noise nor cruising speeds: what a replay
 // can repeat exactly.
 Scene OpenSkyScene() {
@@ -40,7 +47,7 @@ TEST(Replay, OfATrueFlockByItsOwnModelStaysWithIt) {
   ReplayOptions options;
   options.frame = 1;
   options.substeps = scene.substeps;
-  const ReplayResult result = Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1);
+  const ReplayResult result = Replay(options, By(scene.species[0].model), truth, kFps, 1, 1);
   ASSERT_EQ(result.divergence.size(), 89U);
   const Divergence& end = result.divergence.back();
   EXPECT_EQ(end.animals, 12);
@@ -57,8 +64,8 @@ TEST(Replay, ByAnotherModelParts) {
   ReplayOptions options;
   options.frame = 1;
   const double right =
-      Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1).divergence.back().model_rms;
-  EXPECT_GT(Replay(options, wrong, {}, truth, kFps, 1, 1).divergence.back().model_rms, 3 * right);
+      Replay(options, By(scene.species[0].model), truth, kFps, 1, 1).divergence.back().model_rms;
+  EXPECT_GT(Replay(options, By(wrong), truth, kFps, 1, 1).divergence.back().model_rms, 3 * right);
 }
 
 // Two animals straight on and never near each other: no model moves them from their line.
@@ -81,7 +88,7 @@ Trajectories Pair() {
 
 TEST(Replay, KeepsFramesAndIdsAndStartsWhereMostAre) {
   const ReplayResult result = Replay(
-      {}, {.name = "boids", .parameters = {}, .where = {}, .where_of = {}}, {}, Pair(), kFps, 1, 1);
+      {}, By({.name = "boids", .parameters = {}, .where = {}, .where_of = {}}), Pair(), kFps, 1, 1);
   EXPECT_EQ(result.start_frame, 3);
   ASSERT_EQ(result.replayed.trajectories.size(), 2U);
   EXPECT_EQ(result.replayed.trajectories[0].id, 4);
@@ -96,8 +103,8 @@ TEST(Replay, MoreAnimalsAreCopiesWithNewIdsAndTheSameAtAnyThreadCount) {
   ReplayOptions options;
   options.count = 50;
   const ModelSpec boids{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
-  const ReplayResult one = Replay(options, boids, {}, Pair(), kFps, 7, 1);
-  const ReplayResult two = Replay(options, boids, {}, Pair(), kFps, 7, 2);
+  const ReplayResult one = Replay(options, By(boids), Pair(), kFps, 7, 1);
+  const ReplayResult two = Replay(options, By(boids), Pair(), kFps, 7, 2);
   ASSERT_EQ(one.replayed.trajectories.size(), 50U);
   EXPECT_EQ(one.replayed.trajectories[2].id, 10);
   for (std::size_t k = 0; k < 50; ++k) {
@@ -113,9 +120,9 @@ TEST(Replay, WithoutPullTheGuidedFlightIsTheEngines) {
   ReplayOptions options;
   options.frame = 1;
   options.duration = 1;
-  const ReplayResult engine = Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1);
+  const ReplayResult engine = Replay(options, By(scene.species[0].model), truth, kFps, 1, 1);
   options.alpha = 1 - 1e-12;
-  const ReplayResult guided = Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1);
+  const ReplayResult guided = Replay(options, By(scene.species[0].model), truth, kFps, 1, 1);
   for (std::size_t k = 0; k < 12; ++k) {
     const Vec3d apart = guided.replayed.trajectories[k].points.back().position -
                         engine.replayed.trajectories[k].points.back().position;
@@ -133,7 +140,7 @@ TEST(Replay, ThePullKeepsAForeignModelOnThePath) {
   double before = 1e9;
   for (const double alpha : {1.0, 0.9, 0.5, 0.0}) {
     options.alpha = alpha;
-    const double apart = Replay(options, wrong, {}, truth, kFps, 1, 1).divergence.back().model_rms;
+    const double apart = Replay(options, By(wrong), truth, kFps, 1, 1).divergence.back().model_rms;
     EXPECT_LT(apart, before) << alpha;
     before = apart;
   }
@@ -147,7 +154,7 @@ TEST(Replay, CopiesAreGuidedBesideTheirSource) {
   const ModelSpec boids{
       .name = "boids", .parameters = {{"alpha_s", 0}}, .where = {}, .where_of = {}};
   const Trajectories pair = Pair();
-  const ReplayResult result = Replay(options, boids, {}, pair, kFps, 7, 1);
+  const ReplayResult result = Replay(options, By(boids), pair, kFps, 7, 1);
   for (const Trajectory& copy : result.replayed.trajectories) {
     const double moved = copy.points.back().position.x - copy.points.front().position.x;
     EXPECT_NEAR(moved, 10.0 * 17 / kFps, 0.5) << copy.id;
@@ -159,10 +166,55 @@ TEST(Replay, APerturbationIsFollowed) {
   const Trajectories truth = SimulateScene(scene, {}, {}).truth;
   ReplayOptions options;
   options.frame = 1;
-  const ReplayResult result = Replay(options, scene.species[0].model, {}, truth, kFps, 1, 1);
+  const ReplayResult result = Replay(options, By(scene.species[0].model), truth, kFps, 1, 1);
   const double first = result.divergence.front().perturbed_rms;
   EXPECT_NEAR(first, std::sqrt(3.0) * kPerturbation, 0.5 * kPerturbation);
   EXPECT_GT(result.divergence.back().perturbed_rms, 0);
+}
+
+TEST(Replay, AGoalDrawsTheFlockFreeOrGuided) {
+  Parameters parameters = By({.name = "boids",
+                              .parameters = {{"noise", 0}, {"alpha_c", 0}, {"cruise", 0}},
+                              .where = {},
+                              .where_of = {}});
+  for (const double alpha : {1.0, 0.999}) {
+    ReplayOptions options;
+    options.duration = 1;
+    options.alpha = alpha;
+    parameters.goals.clear();
+    const double before = Replay(options, parameters, Pair(), kFps, 1, 1)
+                              .replayed.trajectories[0]
+                              .points.back()
+                              .position.z;
+    GoalSpec goal;
+    goal.position = {5, 4000, 1000};
+    parameters.goals = {goal};
+    const double after = Replay(options, parameters, Pair(), kFps, 1, 1)
+                             .replayed.trajectories[0]
+                             .points.back()
+                             .position.z;
+    EXPECT_GT(after, before + 1) << alpha;  // 15 m/s^2 at most, and damped
+  }
+}
+
+TEST(Replay, WithoutItsNoiseAModelPartsLater) {
+  Scene scene = OpenSkyScene();
+  scene.species[0].model.parameters["noise"] = 3;
+  scene.species[0].model.parameters["noise_time"] = 0.5;
+  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  ReplayOptions options;
+  options.frame = 1;
+  // Another seed: the replay's gusts are not the truth's.
+  const Divergence end =
+      Replay(options, By(scene.species[0].model), truth, kFps, 77, 1).divergence.back();
+  EXPECT_LT(end.noiseless_rms, 0.9 * end.model_rms);
+  EXPECT_GT(end.noiseless_rms, 0);
+  // A model that has none is its own.
+  const Scene calm = OpenSkyScene();
+  const Divergence same =
+      Replay(options, By(calm.species[0].model), SimulateScene(calm, 1, {}).truth, kFps, 77, 1)
+          .divergence.back();
+  EXPECT_EQ(same.noiseless_rms, same.model_rms);
 }
 
 TEST(Replay, WallsHoldTheFlock) {
@@ -176,7 +228,7 @@ TEST(Replay, WallsHoldTheFlock) {
   const auto furthest = [&](const std::optional<Region>& box) {
     double x = -1e9;
     for (const Trajectory& t :
-         Replay(options, boids, box, Pair(), kFps, 1, 1).replayed.trajectories) {
+         Replay(options, By(boids, box), Pair(), kFps, 1, 1).replayed.trajectories) {
       for (const TrajectoryPoint& point : t.points) x = std::max(x, point.position.x);
     }
     return x;
@@ -189,7 +241,7 @@ TEST(Replay, RefusesAFrameWithoutAnimals) {
   ReplayOptions options;
   options.frame = 1;
   const ModelSpec boids{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
-  EXPECT_THROW(Replay(options, boids, {}, Pair(), kFps, 1, 1), std::invalid_argument);
+  EXPECT_THROW(Replay(options, By(boids), Pair(), kFps, 1, 1), std::invalid_argument);
 }
 
 }  // namespace
