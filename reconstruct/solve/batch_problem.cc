@@ -123,7 +123,22 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
   const auto a = Evaluate<3, 0>(
       derivatives, c, std::array<double, 0>{}, std::array<int, 0>{},
       [&](const auto* path, const auto*, auto* error) { acceleration(path, error); });
-  for (int axis = 0; axis < 3; ++axis) take(Term::kAcceleration, axis, a[axis]);
+  for (int axis = 0; axis < 3; ++axis) {
+    Feature feature = a[axis];
+    if (model.turn_knots > 1) {
+      const double place =
+          std::clamp((bird.first_knot + knot) * model.knot_interval / kTurnKnotTime, 0.0,
+                     model.turn_knots - 1.0);
+      const int left = std::min(static_cast<int>(place), model.turn_knots - 2);
+      for (int side = 0; side < 2; ++side) {
+        const double share = side == 0 ? 1 - (place - left) : place - left;
+        const int index = model.FirstTurnKnot() + 3 * (left + side) + axis;
+        feature.value -= share * shared[index];
+        feature.border[feature.border_count++] = {kOwnUnknowns + index, -share};
+      }
+    }
+    take(Term::kAcceleration, axis, feature);
+  }
 
   const SpeedError speed{.rate = rate, .softening = bird.softening};
   take(Term::kSpeed, 0,
@@ -286,6 +301,8 @@ const char* NameOf(Term term) {
       return "near and far";
     case Term::kAnyVelocity:
       return "any velocity";
+    case Term::kTurn:
+      return "common acceleration";
   }
   return "";
 }
@@ -387,14 +404,45 @@ double SharedPriors(const BatchModel& model, const Eigen::VectorXd& shared, Eige
     (*matrix)(j, i) -= w;
     (*gradient)[j] -= r / sd;
   };
-  add(kFlockLogSpeed, -1, model.flock_log_speed.mean, model.flock_log_speed.sd);
-  add(kSizeRatio, -1, model.size_ratio.mean, model.size_ratio.sd);
-  add(kLogTrunk, -1, model.log_trunk.mean, model.log_trunk.sd);
-  add(kLogUp, -1, model.log_up.mean, model.log_up.sd);
+  if (model.belief) {
+    const Eigen::Vector4d off = shared.head<4>() - model.belief->mean;
+    const Eigen::Vector4d pull = model.belief->information * off;
+    cost += 0.5 * off.dot(pull);
+    if (matrix != nullptr) {
+      matrix->topLeftCorner<4, 4>() += model.belief->information;
+      gradient->head<4>() += pull;
+    }
+  } else {
+    add(kFlockLogSpeed, -1, model.flock_log_speed.mean, model.flock_log_speed.sd);
+    add(kSizeRatio, -1, model.size_ratio.mean, model.size_ratio.sd);
+    add(kLogTrunk, -1, model.log_trunk.mean, model.log_trunk.sd);
+    add(kLogUp, -1, model.log_up.mean, model.log_up.sd);
+  }
   for (int k = 0; k < model.depth_knots; ++k) {
     add(kFirstDepthKnot + k, -1, model.log_depth.mean,
         model.log_depth.sd * std::sqrt(static_cast<double>(model.depth_knots)));
     if (k > 0) add(kFirstDepthKnot + k, kFirstDepthKnot + k - 1, 0, model.depth_step_sd);
+  }
+  const double rho = model.spreads.turn.Correlation(kTurnKnotTime);
+  for (int k = 0; k < model.turn_knots; ++k) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int i = model.FirstTurnKnot() + 3 * k + axis;
+      if (k == 0) {
+        add(i, -1, 0, model.spreads.turn.sd);
+        continue;
+      }
+      const double sd = model.spreads.turn.StepSd(rho);
+      const double r = (shared[i] - rho * shared[i - 3]) / sd;
+      cost += 0.5 * r * r;
+      if (matrix == nullptr) continue;
+      const double w = 1 / (sd * sd);
+      (*matrix)(i, i) += w;
+      (*matrix)(i - 3, i - 3) += rho * rho * w;
+      (*matrix)(i, i - 3) -= rho * w;
+      (*matrix)(i - 3, i) -= rho * w;
+      (*gradient)[i] += r / sd;
+      (*gradient)[i - 3] -= rho * r / sd;
+    }
   }
   return cost;
 }

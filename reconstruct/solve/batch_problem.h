@@ -26,6 +26,7 @@ namespace flocklift::internal {
 inline constexpr int kFlockLogSpeed = 0, kSizeRatio = 1, kLogTrunk = 2, kLogUp = 3;
 inline constexpr int kFirstDepthKnot = 4;
 inline constexpr double kDepthKnotTime = 2;  // [s]
+inline constexpr double kTurnKnotTime = 1;   // [s]
 // An animal's own unknowns.
 inline constexpr int kOwnLogSpeed = 0, kOwnSizeBias = 1, kOwnUnknowns = 2;
 
@@ -41,8 +42,9 @@ enum class Term {
   kAnchor,
   kBounds,
   kAnyVelocity,
+  kTurn,
 };
-inline constexpr int kTermCount = 11;
+inline constexpr int kTermCount = 12;
 const char* NameOf(Term term);
 
 // Residuals beyond this many sds count linearly (Huber's loss); 0: never.
@@ -51,6 +53,7 @@ double HuberLimit(Term term);
 // The spreads of the priors; estimated while solving.
 struct Spreads {
   MarkovProcess acceleration, speed, size, climb, depth;
+  MarkovProcess turn;  // the acceleration that the flock has in common
   double speed_between = 0.1;
   double size_between = 0.05;
 };
@@ -81,6 +84,12 @@ struct Bird {
   int unknowns() const { return static_cast<int>(path.size()); }
 };
 
+// What is known of the flock's first four unknowns from another part of the same sequence.
+struct Belief {
+  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+};
+
 // What stays fixed during one solve.
 struct BatchModel {
   double knot_interval = 0.1;  // [s]
@@ -90,10 +99,14 @@ struct BatchModel {
   bool use_size = true, use_climb = true, use_depth = true;
   std::optional<double> log_near, log_far;
   Uncertain flock_log_speed, size_ratio, log_trunk, log_up, log_depth;
-  double depth_step_sd = 0.3;  // of the flock's middle over one kDepthKnotTime
+  std::optional<Belief> belief;  // instead of the first four priors
+  double depth_step_sd = 0.3;    // of the flock's middle over one kDepthKnotTime
   int depth_knots = 1;
 
-  int shared() const { return kFirstDepthKnot + depth_knots; }
+  int turn_knots = 0;  // of the flock's common acceleration, kTurnKnotTime apart; 0: none
+
+  int FirstTurnKnot() const { return kFirstDepthKnot + depth_knots; }
+  int shared() const { return FirstTurnKnot() + 3 * turn_knots; }
 };
 
 using RowSink = std::function<void(Term, const ResidualRow&)>;

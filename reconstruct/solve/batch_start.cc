@@ -149,7 +149,8 @@ void StartDepth(const BatchModel& model, const ScaleGuess& guess, Bird* bird) {
 }  // namespace
 
 BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
-                     const Segments& segments, const ScaleGuess& guess, double fps) {
+                     const Segments& segments, const ScaleGuess& guess,
+                     const std::optional<Belief>& belief, double fps) {
   BatchModel model;
   model.knot_interval = std::max(options.knot_interval, 1 / fps);
   Spreads& s = model.spreads;
@@ -158,6 +159,7 @@ BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
     s.acceleration.sd = std::max(0.3 * options.acceleration_sd,
                                  guess.image_acceleration * std::exp(guess.log_depth));
   }
+  s.turn = {0.7 * s.acceleration.sd, kTurnKnotTime};
   s.speed = {options.speed_sd, options.speed_time};
   s.size = {options.size_sd, options.size_time};
   s.climb = {options.climb_sd, options.climb_time};
@@ -185,12 +187,39 @@ BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
     model.log_depth.sd = std::log(*knowledge.far / *knowledge.near) / std::sqrt(12.0);
     model.use_depth = true;
   }
+  if (belief) {
+    // The scale is another part's; here it is only shared.
+    model.belief = belief;
+    model.flock_log_speed.mean = belief->mean[kFlockLogSpeed];
+    model.size_ratio.mean = belief->mean[kSizeRatio];
+    model.log_trunk.mean = belief->mean[kLogTrunk];
+    model.log_up.mean = belief->mean[kLogUp];
+    model.log_depth.sd = kVague;
+  }
   double last_time = 0;
   for (const Segment& segment : segments.segments) {
     last_time = std::max(last_time, segment.sightings.back().time);
   }
   model.depth_knots = static_cast<int>(std::ceil(last_time / kDepthKnotTime)) + 1;
+  if (options.flock_turn) {
+    model.turn_knots = static_cast<int>(std::ceil(last_time / kTurnKnotTime)) + 1;
+  }
   return model;
+}
+
+ScaleGuess WithBelief(const ScaleGuess& guess, const Knowledge& knowledge,
+                      const std::optional<Belief>& belief) {
+  if (!belief) return guess;
+  ScaleGuess shifted = guess;
+  const double shift = belief->mean[kFlockLogSpeed] - guess.log_speed;
+  shifted.log_speed += shift;
+  shifted.log_depth += shift;
+  shifted.log_width += shift;
+  if (!knowledge.near) shifted.log_near += shift;
+  if (!knowledge.far) shifted.log_far += shift;
+  if (shifted.log_far < shifted.log_near + 0.05) return guess;
+  shifted.log_depth = std::clamp(shifted.log_depth, shifted.log_near, shifted.log_far);
+  return shifted;
 }
 
 Eigen::VectorXd StartOfShared(const BatchModel& model) {
@@ -199,7 +228,8 @@ Eigen::VectorXd StartOfShared(const BatchModel& model) {
   shared[kSizeRatio] = model.size_ratio.mean;
   shared[kLogTrunk] = model.log_trunk.mean;
   shared[kLogUp] = model.log_up.mean;
-  shared.tail(model.depth_knots).setConstant(model.log_depth.mean);
+  shared.segment(kFirstDepthKnot, model.depth_knots).setConstant(model.log_depth.mean);
+  shared.tail(3 * model.turn_knots).setZero();
   return shared;
 }
 

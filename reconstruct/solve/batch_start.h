@@ -13,7 +13,12 @@
 namespace flocklift::internal {
 
 BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
-                     const Segments& segments, const ScaleGuess& guess, double fps);
+                     const Segments& segments, const ScaleGuess& guess,
+                     const std::optional<Belief>& belief, double fps);
+
+// The guess brought to the speed that another part of the sequence has found.
+ScaleGuess WithBelief(const ScaleGuess& guess, const Knowledge& knowledge,
+                      const std::optional<Belief>& belief);
 
 // The flock's unknowns at the means of their priors.
 Eigen::VectorXd StartOfShared(const BatchModel& model);

@@ -97,7 +97,7 @@ TEST(Batch, ReachesTheMinimumOfCeres) {
 
   const ScaleGuess guess = GuessScale(scene.knowledge, scene.segments);
   const BatchModel model =
-      MakeModel(options, scene.knowledge, scene.segments, guess, scene.flock.fps);
+      MakeModel(options, scene.knowledge, scene.segments, guess, std::nullopt, scene.flock.fps);
   std::vector<Bird> birds;
   for (const Segment& segment : scene.segments.segments) {
     birds.push_back(StartBird(model, scene.knowledge, guess, segment, scene.flock.fps, 1));

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/solve/spread_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flocklift::internal {
+namespace {
+
+// What a first guess is worth, in animals. The width of the flock, which is seen, tells its depth
+// better than depths do.
+constexpr double kGuessWorth = 4, kWidthWorth = 30;
+
+}  // namespace
+
+void SpreadEstimator::BeginAnimal(double duration) {
+  constexpr double kWhole = 1;  // [s]
+  animals_ += std::min(1.0, duration / kWhole);
+}
+
+void SpreadEstimator::Add(Term term, double error, double variance) {
+  const std::size_t k = static_cast<std::size_t>(term);
+  const double sd = SdOf(term);
+  // An outlier counts as what the robust loss makes of it.
+  const double weight = RobustWeight(term, error / sd);
+  squares_[k] += weight * error * error + std::min(variance, 9 * sd * sd);
+  counts_[k] += 1;
+}
+
+void SpreadEstimator::Merge(const SpreadEstimator& other) {
+  animals_ += other.animals_;
+  for (std::size_t k = 0; k < kTermCount; ++k) {
+    squares_[k] += other.squares_[k];
+    counts_[k] += other.counts_[k];
+  }
+}
+
+void SpreadEstimator::Update(const Spreads& guess, Spreads* spreads) const {
+  const auto update = [&](Term term, double first, double* sd, double worth = kGuessWorth) {
+    const std::size_t k = static_cast<std::size_t>(term);
+    if (counts_[k] == 0) return;
+    const double n = term == Term::kTurn ? counts_[k] / 3 : animals_;
+    const double mean = squares_[k] / counts_[k];
+    const double next = std::sqrt((n * mean + worth * first * first) / (n + worth));
+    *sd = std::clamp(next, 0.1 * first, 10 * first);
+  };
+  update(Term::kAcceleration, guess.acceleration.sd, &spreads->acceleration.sd);
+  update(Term::kSpeed, guess.speed.sd, &spreads->speed.sd);
+  update(Term::kSize, guess.size.sd, &spreads->size.sd);
+  update(Term::kClimb, guess.climb.sd, &spreads->climb.sd);
+  update(Term::kDepth, guess.depth.sd, &spreads->depth.sd, kWidthWorth);
+  update(Term::kSpeedSpread, guess.speed_between, &spreads->speed_between);
+  update(Term::kTurn, guess.turn.sd, &spreads->turn.sd);
+}
+
+double SpreadEstimator::SdOf(Term term) const {
+  switch (term) {
+    case Term::kAcceleration:
+      return now_.acceleration.sd;
+    case Term::kSpeed:
+      return now_.speed.sd;
+    case Term::kSize:
+      return now_.size.sd;
+    case Term::kClimb:
+      return now_.climb.sd;
+    case Term::kDepth:
+      return now_.depth.sd;
+    case Term::kSpeedSpread:
+      return now_.speed_between;
+    case Term::kTurn:
+      return now_.turn.sd;
+    default:
+      return 1;
+  }
+}
+
+}  // namespace flocklift::internal

@@ -1,0 +1,368 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/solve/window_solver.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "reconstruct/cost_functions/path.h"
+#include "reconstruct/solve/batch_start.h"
+#include "reconstruct/solve/spread_estimator.h"
+#include "simulate/core/parallel_for.h"
+
+namespace flocklift::internal {
+namespace {
+
+constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-9, kMostDamping = 1e9;
+
+// Everything that moves while solving.
+struct State {
+  BatchModel model;
+  std::vector<Bird> birds;
+  Eigen::VectorXd shared;
+};
+
+// What one animal needs for a step.
+struct Workspace {
+  ArrowSystem system;
+  double damping = kFirstDamping;
+  double cost = 0;
+  Eigen::MatrixXd shared_matrix;
+  Eigen::VectorXd shared_gradient;
+  Bird candidate;
+  double candidate_cost = 0;
+  bool moved = false;
+};
+
+class Solver {
+ public:
+  Solver(State* state, int threads) : state_(*state), pool_(threads) {
+    for (const Bird& bird : state_.birds) {
+      work_.push_back({.system = ArrowSystem(bird.unknowns(), kOwnUnknowns, state_.model.shared()),
+                       .shared_matrix = {},
+                       .shared_gradient = {},
+                       .candidate = bird});
+    }
+  }
+
+  // Damped Gauss-Newton until the cost stands still. Returns whether it did.
+  bool Minimize(int max_iterations, BatchReport* report, const std::function<void()>& on_iteration);
+
+  double Cost() {
+    ForEachBird([this](std::size_t i) {
+      work_[i].cost = CostOf(state_.model, state_.birds[i], state_.shared);
+    });
+    double cost = SharedPriors(state_.model, state_.shared, nullptr, nullptr);
+    for (const Workspace& w : work_) cost += w.cost;
+    return cost;
+  }
+
+  // Normal equations at the present state, undamped. Returns the covariance of the flock's
+  // unknowns.
+  Eigen::MatrixXd Linearize() {
+    Assemble();
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd gradient;
+    Reduce(0, &matrix, &gradient);
+    return matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+  }
+
+  Workspace& work(std::size_t i) { return work_[i]; }
+
+  template <typename Function>
+  void ForEachBird(const Function& fn) {
+    pool_.For(0, static_cast<std::int64_t>(work_.size()), 1,
+              [&fn](std::int64_t first, std::int64_t last) {
+                for (std::int64_t i = first; i < last; ++i) fn(static_cast<std::size_t>(i));
+              });
+  }
+
+ private:
+  void Assemble() {
+    ForEachBird([this](std::size_t i) {
+      ArrowSystem& system = work_[i].system;
+      system.SetZero();
+      ForEachRow(state_.model, state_.birds[i], state_.shared, true,
+                 [&system](Term term, const ResidualRow& row) {
+                   system.Add(row, RobustWeight(term, row.residual));
+                 });
+    });
+  }
+
+  // Eliminates every animal; an animal whose system is singular is damped until it is not.
+  void Reduce(double damping_factor, Eigen::MatrixXd* matrix, Eigen::VectorXd* gradient) {
+    const int size = state_.model.shared();
+    ForEachBird([&](std::size_t i) {
+      Workspace& w = work_[i];
+      for (double damping = damping_factor * w.damping;; damping = std::max(10 * damping, 1e-9)) {
+        w.shared_matrix.setZero(size, size);
+        w.shared_gradient.setZero(size);
+        if (w.system.Reduce(damping, &w.shared_matrix, &w.shared_gradient)) break;
+        if (damping > kMostDamping) {  // nothing is known of this animal: leave it out
+          w.system.SetIdentity();
+        }
+      }
+    });
+    matrix->setZero(size, size);
+    gradient->setZero(size);
+    SharedPriors(state_.model, state_.shared, matrix, gradient);
+    for (const Workspace& w : work_) {  // in this order at any number of threads
+      *matrix += w.shared_matrix;
+      *gradient += w.shared_gradient;
+    }
+  }
+
+  State& state_;
+  ThreadPool pool_;
+  std::vector<Workspace> work_;
+};
+
+bool Solver::Minimize(int max_iterations, BatchReport* report,
+                      const std::function<void()>& on_iteration) {
+  constexpr double kEnough = 2e-3, kEnoughRelative = 1e-8;  // fall of the cost that counts
+  double cost = Cost();
+  int still = 0;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    on_iteration();
+    ++report->iterations;
+    Assemble();
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd gradient;
+    Reduce(1, &matrix, &gradient);
+    const Eigen::VectorXd step = -matrix.llt().solve(gradient);
+    if (!step.allFinite()) return false;
+    // A step of the flock's unknowns that is too far for the model is halved; each animal takes
+    // its own part of the step only when that helps it.
+    bool accepted = false;
+    for (double share = 1; share > 0.02 && !accepted; share *= 0.4) {
+      const Eigen::VectorXd shared_step = share * step;
+      const Eigen::VectorXd shared = state_.shared + shared_step;
+      ForEachBird([&](std::size_t i) {
+        Workspace& w = work_[i];
+        const Bird& bird = state_.birds[i];
+        const Eigen::VectorXd own_step = w.system.BackSubstitute(shared_step);
+        w.candidate.path = bird.path;
+        w.candidate.own = bird.own;
+        w.candidate_cost = std::numeric_limits<double>::infinity();
+        if (own_step.allFinite()) {
+          for (int k = 0; k < bird.unknowns(); ++k) w.candidate.path[k] += own_step[k];
+          for (int k = 0; k < kOwnUnknowns; ++k) {
+            w.candidate.own[k] += own_step[bird.unknowns() + k];
+          }
+          w.candidate_cost = CostOf(state_.model, w.candidate, shared);
+        }
+        w.moved = w.candidate_cost < std::numeric_limits<double>::infinity();
+        if (!(w.candidate_cost < w.cost)) {
+          const double stay = CostOf(state_.model, bird, shared);
+          if (!(w.candidate_cost < stay)) {
+            w.moved = false;
+            w.candidate_cost = stay;
+          }
+        }
+      });
+      double candidate = SharedPriors(state_.model, shared, nullptr, nullptr);
+      for (const Workspace& w : work_) candidate += w.candidate_cost;
+      if (!(candidate < cost)) continue;
+      accepted = true;
+      state_.shared = shared;
+      for (std::size_t i = 0; i < work_.size(); ++i) {
+        Workspace& w = work_[i];
+        if (w.moved) {
+          std::swap(state_.birds[i].path, w.candidate.path);
+          state_.birds[i].own = w.candidate.own;
+        }
+        w.cost = w.candidate_cost;
+        w.damping = std::clamp(w.damping * (w.moved ? 0.2 : 8), kLeastDamping, kMostDamping);
+      }
+      still = cost - candidate < kEnough + kEnoughRelative * cost ? still + 1 : 0;
+      cost = candidate;
+    }
+    if (!accepted) {
+      ++still;
+      for (Workspace& w : work_) w.damping = std::min(w.damping * 10, kMostDamping);
+    }
+    if (still >= 3) return true;
+  }
+  return false;
+}
+
+// One round of expectation maximisation of the spreads at the present solution.
+void EstimateSpreads(const Spreads& guess, State* state, Solver* solver) {
+  const Eigen::MatrixXd covariance = solver->Linearize();
+  constexpr double kInterval = 0.5;  // between the errors that are looked at [s]
+  const int stride =
+      std::max(1, static_cast<int>(std::lround(kInterval / state->model.knot_interval)));
+  std::vector<SpreadEstimator> of_bird(state->birds.size(), SpreadEstimator(state->model.spreads));
+  solver->ForEachBird([&](std::size_t i) {
+    const Bird& bird = state->birds[i];
+    const ArrowSystem& system = solver->work(i).system;
+    const ArrowSystem::Posterior posterior = system.Covariance(covariance);
+    of_bird[i].BeginAnimal((bird.knots - 1) * state->model.knot_interval);
+    ForEachError(state->model, bird, state->shared, stride, [&](Term term, const ResidualRow& row) {
+      of_bird[i].Add(term, row.residual, system.VarianceOf(posterior, row));
+    });
+    ResidualRow own;
+    own.AddBorder(kOwnLogSpeed, 1);
+    own.AddBorder(kOwnUnknowns + kFlockLogSpeed, -1);
+    of_bird[i].Add(Term::kSpeedSpread, bird.own[kOwnLogSpeed] - state->shared[kFlockLogSpeed],
+                   system.VarianceOf(posterior, own));
+  });
+  SpreadEstimator all(state->model.spreads);
+  for (const SpreadEstimator& estimator : of_bird) all.Merge(estimator);
+  const BatchModel& model = state->model;
+  for (int i = model.FirstTurnKnot(); i < model.shared(); ++i) {
+    all.Add(Term::kTurn, state->shared[i], covariance(i, i));
+  }
+  all.Update(guess, &state->model.spreads);
+  for (Bird& bird : state->birds) {
+    double sum = 0;
+    for (std::size_t k = 2; k < bird.path.size(); k += 3) sum += bird.path[k];
+    bird.reference_depth = std::exp(sum * 3 / static_cast<double>(bird.path.size()));
+  }
+}
+
+SolvedPoint PointAt(const Bird& bird, const Bird::Place& place, double rate) {
+  const double* c = &bird.path[3 * static_cast<std::size_t>(place.interval)];
+  PathState<double> q{};
+  const double s = place.weights[3] > 0 ? std::cbrt(6 * place.weights[3]) : 0;
+  const std::array<double, 4> curves = {1 - s, 3 * s - 2, 1 - 3 * s, s};
+  for (int a = 0; a < 4; ++a) {
+    q.x += place.weights[a] * c[3 * a];
+    q.y += place.weights[a] * c[3 * a + 1];
+    q.l += place.weights[a] * c[3 * a + 2];
+    q.dx += place.slopes[a] * c[3 * a];
+    q.dy += place.slopes[a] * c[3 * a + 1];
+    q.dl += place.slopes[a] * c[3 * a + 2];
+    q.ddx += curves[a] * rate * rate * c[3 * a];
+    q.ddy += curves[a] * rate * rate * c[3 * a + 1];
+    q.ddl += curves[a] * rate * rate * c[3 * a + 2];
+  }
+  const double z = std::exp(q.l);
+  return {.position_in_cam = {z * q.x, z * q.y, z},
+          .velocity_in_cam = z * VelocityOverDepth(q),
+          .acceleration_in_cam = z * AccelerationOverDepth(q)};
+}
+
+// Points with the posterior of their depths; the common scale's own sd comes from the posterior of
+// the mean log depth of all sightings. Returns the covariance of the flock's unknowns.
+Eigen::MatrixXd ReadOut(State* state, Solver* solver, BatchResult* result) {
+  const Eigen::MatrixXd covariance = solver->Linearize();
+  const double rate = 1 / state->model.knot_interval;
+  result->paths.resize(state->birds.size());
+  double rows = 0;
+  for (const Bird& bird : state->birds) rows += static_cast<double>(bird.places.size());
+  std::vector<std::pair<double, Eigen::VectorXd>> means(state->birds.size());
+  solver->ForEachBird([&](std::size_t i) {
+    const Bird& bird = state->birds[i];
+    const ArrowSystem& system = solver->work(i).system;
+    const ArrowSystem::Posterior posterior = system.Covariance(covariance);
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(bird.unknowns());
+    for (const Bird::Place& place : bird.places) {
+      SolvedPoint point = PointAt(bird, place, rate);
+      ResidualRow row;
+      row.first = 3 * place.interval;
+      for (int a = 0; a < 4; ++a) {
+        row.path[3 * a + 2] = place.weights[a];
+        weights[row.first + 3 * a + 2] += place.weights[a] / rows;
+      }
+      const double variance = system.VarianceOf(posterior, row);
+      point.sd_log_depth = std::isfinite(variance) && variance > 0 ? std::sqrt(variance) : 1;
+      result->paths[i].push_back(point);
+    }
+    means[i] = system.Functional(weights);
+  });
+  double variance = 0;
+  Eigen::VectorXd sensitivity = Eigen::VectorXd::Zero(state->model.shared());
+  for (const auto& [own, shared] : means) {
+    variance += own;
+    sensitivity += shared;
+  }
+  variance += sensitivity.dot(covariance * sensitivity);
+  BatchReport& report = result->report;
+  report.scale_sd = std::sqrt(std::max(variance, 0.0));
+  const double speed = std::exp(state->shared[kFlockLogSpeed]);
+  report.flock_speed = {speed, speed * std::sqrt(covariance(kFlockLogSpeed, kFlockLogSpeed))};
+  const double ratio = std::exp(state->shared[kSizeRatio] - state->model.size_ratio.mean);
+  const BatchModel& model = state->model;
+  report.speed_against_size = {(state->shared[kFlockLogSpeed] - model.flock_log_speed.mean) +
+                                   (model.size_ratio.mean - state->shared[kSizeRatio]),
+                               std::hypot(model.flock_log_speed.sd, model.size_ratio.sd)};
+  report.size_ratio = {ratio, ratio * std::sqrt(covariance(kSizeRatio, kSizeRatio))};
+  return covariance;
+}
+
+void CollectTerms(const State& state, BatchReport* report) {
+  std::array<double, kTermCount> squares{}, outliers{};
+  std::array<long, kTermCount> counts{};
+  for (const Bird& bird : state.birds) {
+    ForEachRow(state.model, bird, state.shared, false, [&](Term term, const ResidualRow& row) {
+      const std::size_t k = static_cast<std::size_t>(term);
+      squares[k] += row.residual * row.residual;
+      outliers[k] += std::abs(row.residual) > 3 ? 1 : 0;
+      ++counts[k];
+    });
+  }
+  for (std::size_t k = 0; k < kTermCount; ++k) {
+    if (counts[k] == 0) continue;
+    const double n = static_cast<double>(counts[k]);
+    report->terms.push_back(
+        {NameOf(static_cast<Term>(k)), counts[k], std::sqrt(squares[k] / n), outliers[k] / n});
+  }
+  const Spreads& s = state.model.spreads;
+  report->spreads = {{"acceleration [m/s^2]", s.acceleration.sd},
+                     {"speed between animals", s.speed_between},
+                     {"speed over time", s.speed.sd},
+                     {"size between animals", s.size_between},
+                     {"size over time", s.size.sd},
+                     {"sine of climb", s.climb.sd},
+                     {"log depth", s.depth.sd}};
+  if (state.model.turn_knots > 0) {
+    report->spreads.push_back({"common acceleration [m/s^2]", s.turn.sd});
+  }
+}
+
+}  // namespace
+
+SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge,
+                         const Segments& segments, const std::optional<Belief>& belief,
+                         int first_frame, double fps, int threads,
+                         const std::function<void()>& on_iteration) {
+  SolvedWindow solved;
+  BatchReport& report = solved.result.report;
+  const ScaleGuess guess = WithBelief(GuessScale(knowledge, segments), knowledge, belief);
+  State state;
+  state.model = MakeModel(options, knowledge, segments, guess, belief, fps);
+  state.shared = StartOfShared(state.model);
+  state.birds.resize(segments.segments.size());
+  ParallelFor(threads, 0, static_cast<std::int64_t>(state.birds.size()), 1,
+              [&](std::int64_t first, std::int64_t last) {
+                for (std::int64_t i = first; i < last; ++i) {
+                  state.birds[i] = StartBird(state.model, knowledge, guess, segments.segments[i],
+                                             fps, first_frame);
+                }
+              });
+
+  Solver solver(&state, threads);
+  report.initial_cost = solver.Cost();
+  report.converged = solver.Minimize(options.max_iterations, &report, on_iteration);
+  if (options.estimate) {
+    const Spreads first_guess = state.model.spreads;
+    for (int round = 0; round < kSpreadRounds; ++round) {
+      EstimateSpreads(first_guess, &state, &solver);
+      report.converged = solver.Minimize(kSpreadIterations, &report, on_iteration);
+    }
+  }
+  report.final_cost = solver.Cost();
+  const Eigen::MatrixXd covariance = ReadOut(&state, &solver, &solved.result);
+  CollectTerms(state, &report);
+  solved.belief = {state.shared.head<4>(), covariance.topLeftCorner<4, 4>().inverse()};
+  return solved;
+}
+
+}  // namespace flocklift::internal

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The solve of one window of a sequence: the path of every animal and the flock's few unknowns
+// (batch_problem.h) by Gauss-Newton with Levenberg's damping per animal, the spreads of the priors
+// re-estimated between solves (spread_estimator.h).
+
+#ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_WINDOW_SOLVER_H_
+#define FLOCKLIFT_RECONSTRUCT_SOLVE_WINDOW_SOLVER_H_
+
+#include <functional>
+#include <optional>
+
+#include "reconstruct/initialize/segments.h"
+#include "reconstruct/knowledge.h"
+#include "reconstruct/solve/batch.h"
+#include "reconstruct/solve/batch_options.h"
+#include "reconstruct/solve/batch_problem.h"
+
+namespace flocklift::internal {
+
+inline constexpr int kSpreadRounds = 4, kSpreadIterations = 12;  // of each, at most
+
+struct SolvedWindow {
+  BatchResult result;
+  Belief belief;  // in the flock's first four unknowns, that of other windows included
+};
+
+// `belief`: what other windows said. `first_frame` is the frame at time 0 of the segments.
+SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge,
+                         const Segments& segments, const std::optional<Belief>& belief,
+                         int first_frame, double fps, int threads,
+                         const std::function<void()>& on_iteration);
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_RECONSTRUCT_SOLVE_WINDOW_SOLVER_H_
