@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "simulate/camera/camera_io.h"
+#include "simulate/core/check.h"
+#include "simulate/core/io.h"
+#include "simulate/core/parameters.h"
+#include "simulate/core/rng.h"
+#include "tests/reconstruct/fit/flocks.h"
+#include "tools/fit_command.h"
+#include "tools/replay_command.h"
+
+namespace flocklift {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Slurp(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class FitReplayCommandTest : public testing::Test {
+ protected:
+  FitReplayCommandTest() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    Scene scene = BoidsScene(3);
+    scene.duration = 4;
+    WriteTrajectories(folder_ / "trajectories.csv", Fly(scene));
+  }
+  ~FitReplayCommandTest() override { fs::remove_all(folder_); }
+
+  fs::path Run(const std::string& arguments, const std::string& out) {
+    CLI::App app;
+    AddFitCommand(app);
+    AddReplayCommand(app);
+    app.parse(arguments + " --quiet --out " + (folder_ / out).string());
+    return folder_ / out;
+  }
+  std::string Fit(const std::string& arguments) const {
+    return "fit " + (folder_ / "trajectories.csv").string() + " --walls=-20,-20,2,20,20,22 " +
+           arguments;
+  }
+  std::string Replay(const std::string& arguments) const {
+    return "replay " + (folder_ / "trajectories.csv").string() + " --parameters " +
+           (folder_ / "fit" / "parameters.toml").string() + " " + arguments;
+  }
+  static nlohmann::json Figures(const fs::path& summary) {
+    return nlohmann::json::parse(Slurp(summary)).at("figures");
+  }
+
+  fs::path folder_ = fs::path(testing::TempDir()) / "flocklift_fit_replay_command_test";
+};
+
+TEST_F(FitReplayCommandTest, FitWritesParametersAndWhatIsKnownOfThem) {
+  const fs::path out = Run(Fit("--set d_s=2 --threads 1"), "fit");
+  const Parameters parameters = ReadParameters(out / "parameters.toml");
+  EXPECT_EQ(parameters.model.name, "boids");
+  EXPECT_EQ(parameters.model.parameters.at("d_s"), 2);
+  EXPECT_EQ(parameters.posterior.free.size(), 6U);
+  ASSERT_TRUE(parameters.walls.has_value());
+  EXPECT_EQ(parameters.walls->high.z, 22);
+  EXPECT_NEAR(parameters.model.parameters.at("alpha_s"), 2, 0.2);
+  const nlohmann::json figures = Figures(out / "summary.fit.json");
+  EXPECT_EQ(figures.at("weights").size(), 6U);
+  EXPECT_TRUE(figures.contains("r2_held_out"));
+  EXPECT_TRUE(figures.at("worst_direction").at("weights").contains("cruise"));
+
+  const fs::path again = Run(Fit("--set d_s=2 --threads 3"), "again");
+  EXPECT_EQ(Slurp(out / "parameters.toml"), Slurp(again / "parameters.toml"));
+}
+
+TEST_F(FitReplayCommandTest, FitStartsFromAFileAndFreesWhatIsAsked) {
+  Run(Fit("--set d_s=2"), "fit");
+  const std::string start = "--start " + (folder_ / "fit" / "parameters.toml").string();
+  const Parameters parameters =
+      ReadParameters(Run(Fit(start + " --free alpha_a,level"), "part") / "parameters.toml");
+  EXPECT_EQ(parameters.posterior.free, (std::vector<std::string>{"alpha_a", "level"}));
+  EXPECT_EQ(parameters.model.parameters.at("d_s"), 2);
+  EXPECT_THROW(Run(Fit(start + " --model boids2d"), "none"), InputError);
+}
+
+TEST_F(FitReplayCommandTest, FitRefusesWithNothingWritten) {
+  const auto refused = [&](const std::string& arguments) {
+    EXPECT_ANY_THROW(Run(Fit(arguments), "none")) << arguments;
+    EXPECT_FALSE(fs::exists(folder_ / "none" / "parameters.toml")) << arguments;
+    EXPECT_FALSE(fs::exists(folder_ / "none" / "summary.fit.json")) << arguments;
+  };
+  refused("--model starlings");
+  refused("--free alpha_x");
+  refused("--set d_s");
+  refused("--set d_s=far");
+  refused("--set d_x=3");
+  refused("--walls 1,2,3");
+  refused("--walls=5,0,0,-5,1,1");
+  refused("--goal 1,2");
+  refused("--held-out 3");
+  refused("--start /nowhere.toml");
+  std::ofstream(folder_ / "trajectories.csv") << "# fps=30\nframe,id,x,y,z\n1,1,0,0,0\n2,1,0,0,1\n";
+  EXPECT_THROW(Run(Fit(""), "none"), CannotFit);
+  std::ofstream(folder_ / "trajectories.csv") << "frame,id,x,y,z\n1,1,0,0,0\n2,1,0,0,1\n";
+  EXPECT_THROW(Run(Fit(""), "none"), InputError);  // no frames per second
+}
+
+TEST_F(FitReplayCommandTest, ReplayTellsHowItParts) {
+  Run(Fit("--set d_s=2"), "fit");
+  const fs::path out = Run(Replay("--frame 10 --duration 2"), "replay");
+  const Trajectories replayed = ReadTrajectories(out / "trajectories.csv");
+  EXPECT_EQ(replayed.trajectories.size(), 20U);
+  EXPECT_EQ(SpanOf(replayed).first, 10);
+  EXPECT_EQ(SpanOf(replayed).last, 70);
+  EXPECT_FALSE(fs::exists(out / "video.mp4"));
+  const nlohmann::json figures = Figures(out / "summary.replay.json");
+  std::vector<double> times;
+  for (const auto& entry : figures.at("divergence")) times.push_back(entry.at("time"));
+  EXPECT_EQ(times.size(), 6U);  // 0.1, 0.2, 0.5, 0.9 or so, 1, 2
+  EXPECT_NEAR(times.back(), 2, 1e-9);
+  const auto& end = figures.at("divergence").back();
+  EXPECT_LT(end.at("noiseless_rms"), end.at("straight_on_rms"));
+  const auto& statistics = figures.at("statistics");
+  EXPECT_EQ(statistics.front().at("time"), 0);
+  EXPECT_NEAR(statistics.front().at("replay").at("polarisation").get<double>(),
+              statistics.front().at("reconstruction").at("polarisation").get<double>(), 1e-3);
+  // A pull keeps it nearer.
+  const auto guided =
+      Figures(Run(Replay("--frame 10 --duration 2 --alpha 0.3"), "guided") / "summary.replay.json");
+  EXPECT_LT(guided.at("divergence").back().at("model_rms"),
+            0.5 * end.at("model_rms").get<double>());
+}
+
+TEST_F(FitReplayCommandTest, ReplayFilmsUnlessToldNotTo) {
+  Run(Fit("--set d_s=2"), "fit");
+  Camera camera = PinholeCamera(60, 160, 90);
+  camera.cam_from_world = LookAt({0, -60, 2}, {0, 0, 12});
+  WriteCamera(folder_ / "camera.yaml", camera);
+  const std::string film = "--duration 0.2 --camera " + (folder_ / "camera.yaml").string();
+  EXPECT_TRUE(fs::exists(Run(Replay(film), "film") / "video.mp4"));
+  EXPECT_FALSE(fs::exists(Run(Replay(film + " --no-video"), "dark") / "video.mp4"));
+}
+
+TEST_F(FitReplayCommandTest, ReplayRefusesWithNothingWritten) {
+  Run(Fit("--set d_s=2"), "fit");
+  const auto refused = [&](const std::string& arguments) {
+    EXPECT_ANY_THROW(Run(Replay(arguments), "none")) << arguments;
+    EXPECT_FALSE(fs::exists(folder_ / "none" / "trajectories.csv")) << arguments;
+  };
+  refused("--frame 100000");
+  refused("--alpha 2");
+  refused("--count -1");
+  refused("--walls 1");
+  std::ofstream(folder_ / "fit" / "parameters.toml") << "[model]\nname = \"boids\"\n[modl]\n";
+  refused("");
+}
+
+}  // namespace
+}  // namespace flocklift
