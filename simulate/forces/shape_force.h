@@ -47,8 +47,8 @@ struct ShapeForce {
   static Share<T> Pair(const Params<T, Taper>& p, const Vec3<T>& dx, const Vec3<T>& /*dv*/) {
     using std::abs;
     const T manhattan = abs(dx.x) + abs(dx.y) + abs(dx.z);
-    const T share = manhattan / p.sigma;
-    const T push = Fall(T(T(0.5) * share * share)) / SoftLength(Dot(dx, dx));
+    const T share = manhattan * (T(1.0) / p.sigma);
+    const T push = Fall(T(T(0.5) * share * share)) * InverseLength(Dot(dx, dx));
     return {-push * dx, TaperWindow(T(manhattan * manhattan), p.reach, p.taper)};
   }
 

@@ -53,6 +53,20 @@ struct TileOf {
   int row;
 };
 
+int CellX(const PairJob& job, float x) {
+  const int a = static_cast<int>((x - job.low_x) * job.inverse_edge);
+  return 1 + (a < job.nx ? a : job.nx - 1);
+}
+
+// Where a tile that begins at `first` ends. Where a row of cells has a gap (a swarm on a surface is
+// hollow) the tile ends before it: the box around it would reach over all that lies between.
+std::uint32_t TileEnd(const PairJob& job, std::uint32_t first, std::uint32_t last) {
+  constexpr int kWidestGap = 2;  // cells
+  const int farthest = CellX(job, job.x[first]) + kWidestGap;
+  while (last - 1 > first && CellX(job, job.x[last - 1]) > farthest) --last;
+  return last;
+}
+
 // The candidates of a tile. Its own animals among them are list[self] .. list[self_end - 1].
 struct Candidates {
   std::uint32_t* list;
@@ -92,11 +106,7 @@ template <typename Pack>
   const Interval box[3] = {Bounds(job.x, tile.first, tile.last),
                            Bounds(job.y, tile.first, tile.last),
                            Bounds(job.z, tile.first, tile.last)};
-  const auto cell_x = [&job](float x) {
-    const int a = static_cast<int>((x - job.low_x) * job.inverse_edge);
-    return 1 + (a < job.nx ? a : job.nx - 1);
-  };
-  const int a0 = cell_x(box[0].low), a1 = cell_x(box[0].high);
+  const int a0 = CellX(job, box[0].low), a1 = CellX(job, box[0].high);
   const float squared_reach = job.reach * job.reach;
   const RowSample sample = job.sample != nullptr ? job.sample[tile.row] : RowSample{1, 0};
   const auto append = [&](std::uint32_t first, std::uint32_t last) {
@@ -214,11 +224,12 @@ template <typename Pack, typename Rules, typename Taper>
   Candidates candidates{candidate_room, 0, 0, 0};
   for (; first < last; ++row) {
     const std::uint32_t end = row_end(row) < last ? row_end(row) : last;
-    for (; first < end; first += Pack::size) {
-      const TileOf tile{first, end - first < Pack::size ? end : first + std::uint32_t{Pack::size},
-                        row};
+    while (first < end) {
+      const std::uint32_t full = first + std::uint32_t{Pack::size};
+      const TileOf tile{first, TileEnd(job, first, full < end ? full : end), row};
       CollectCandidates<Pack>(job, tile, &candidates);
       SumTile<Pack>(job, rules, taper, tile, candidates);
+      first = tile.last;
     }
     first = end;
   }
