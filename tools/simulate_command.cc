@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "simulate/camera/camera_io.h"
 #include "simulate/core/check.h"
@@ -21,6 +23,7 @@
 #include "simulate/synthetic.h"
 #include "tools/scene_camera.h"
 #include "tools/scene_scenery.h"
+#include "tools/scene_tetrahedra.h"
 #include "tools/size_text.h"
 #include "tools/stage.h"
 
@@ -96,19 +99,32 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   for (const char* output : {"trajectories.csv", "tracks_true.csv", "camera.yaml"}) {
     stage.AddOutput(output);
   }
+  const bool morphs = HasTetrahedra(scene);
+  const std::filesystem::path mesh =
+      morphs ? common.out / "tetrahedra.glb" : std::filesystem::path{};
+  if (morphs) stage.AddOutput("tetrahedra.glb");
   if (!command.no_video) stage.AddOutput("video.mp4");
   if (command.still) stage.AddOutput("still.png");
   if (stage.IsUpToDate()) return;
 
   const Progress step_progress = stage.BeginPhase("record");
-  const SceneResult result = SimulateScene(
-      scene, {.threads = common.ThreadCount(), .checkpoint = common.out / ".simulate-checkpoint"},
-      step_progress);
+  const SceneResult result = SimulateScene(scene,
+                                           {.threads = common.ThreadCount(),
+                                            .checkpoint = common.out / ".simulate-checkpoint",
+                                            .tetrahedra = mesh},
+                                           step_progress);
   stage.EndPhase();
   stage.SplitPhase("prepare", result.prepare_wall_s, result.prepare_cpu_s);
   stage.SplitPhase("step", result.step_wall_s, result.step_cpu_s);
   const Scenery obstacles = SceneObstacles(result.obstacles);
-  const Scenery scenery = SceneScenery(scene, result.obstacles);
+  Scenery scenery = SceneScenery(scene, result.obstacles);
+  std::optional<DrawnAnimals> others;
+  if (morphs) {
+    AddTetrahedra(scene, mesh, &scenery);
+    others = WithoutTetrahedra(scene, result);
+  }
+  const Trajectories& filmed = others ? others->trajectories : result.truth;
+  const std::vector<Animal>& animals = others ? others->animals : result.animals;
   stage.BeginPhase("observe");
   const Tracks tracks =
       SynthesizeTracks(result.truth, result.animals, camera, scene.fps, common.ThreadCount(),
@@ -121,16 +137,16 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
                          .scenery = &scenery};
   if (!command.no_video) {
     const Progress film_progress = stage.BeginPhase("film");
-    FilmTrajectories(common.out / "video.mp4", result.truth, result.animals, camera, scene.render,
-                     film, film_progress);
+    FilmTrajectories(common.out / "video.mp4", filmed, animals, camera, scene.render, film,
+                     film_progress);
   }
   stage.BeginPhase("write", "files");
   WriteTrajectories(common.out / "trajectories.csv", result.truth);
   WriteTrueTracks(common.out / "tracks_true.csv", tracks);
   WriteCamera(common.out / "camera.yaml", camera);
   if (command.still) {
-    WritePng(common.out / "still.png", DrawFrame(result.truth, result.animals, camera, scene.render,
-                                                 film, scene.FrameCount()));
+    WritePng(common.out / "still.png",
+             DrawFrame(filmed, animals, camera, scene.render, film, scene.FrameCount()));
   }
   stage.EndPhase();
 

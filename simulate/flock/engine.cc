@@ -120,6 +120,7 @@ struct BasicEngine<T>::Impl {
                                     .species = swarm.species,
                                     .shape = swarm.shape,
                                     .path = swarm.path,
+                                    .start_shape = swarm.start_shape,
                                     .forces = &added.swarm.forces,
                                     .kernel = options.kernel,
                                     .pool = &pool},
@@ -278,6 +279,13 @@ FlockState BasicEngine<T>::State() const {
     state.velocity[impl_->agents + k] = predators[k].velocity;
   }
   return state;
+}
+
+template <typename T>
+std::vector<Vec3<float>> BasicEngine<T>::TetrahedraCorners() {
+  std::vector<Vec3<float>> corners;
+  for (Species<T>& s : impl_->species) s.motion->AppendCorners(&impl_->pool, &corners);
+  return corners;
 }
 
 template <typename T>

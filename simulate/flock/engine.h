@@ -33,6 +33,7 @@ struct Swarm {
   std::vector<double> radius = {};          // of the bodies [m], one each; empty: 0
   ModelSpec spec = {};                      // what `model` was made from; events change it
   std::string shape = {}, path = {};        // the species' own, by name
+  std::string start_shape = {};             // likewise
   std::vector<ModelSpec> forces = {};       // added to the model's
 };
 
@@ -57,6 +58,9 @@ class BasicEngine {
 
   // All animals by id: from 1, species after species in their order, the predators last.
   FlockState State() const;
+
+  // The corners of the species that are tetrahedra, four for each, species after species [m].
+  std::vector<Vec3<float>> TetrahedraCorners();
 
   // The accelerations of the models' forces at the last step, by the same order; zero for models
   // that have none [m/s^2].

@@ -363,6 +363,52 @@ MorphShapeJob FlockMorph::ShapeJob() {
   return job;
 }
 
+void FlockMorph::Rest() {
+  before_ = position_;
+  touched_ = 0;
+}
+
+void FlockMorph::Retune(const MorphOptions& options) {
+  Check(options.speed0 > 0 && options.d_min >= 0 && options.k_a > 0,
+        "speeds and lengths are positive");
+  MorphOptions next = options;
+  // Baked into the arrays.
+  next.region = options_.region;
+  next.margin = options_.margin;
+  next.shrink = options_.shrink;
+  next.departure_time = options_.departure_time;
+  next.match_corners = options_.match_corners;
+  options_ = next;
+}
+
+void FlockMorph::Save(StateWriter* out) const {
+  out->Put(steps_);
+  out->Put(touched_in_all_);
+  out->Put(static_cast<std::uint64_t>(departed_));
+  for (const Columns3* columns : {&position_, &before_, &way_, &on_path_, &style_}) {
+    for (const Column* column : {&columns->x, &columns->y, &columns->z}) out->Put(*column);
+  }
+  out->Put(progress_);
+  out->Put(gate_);
+  out->Put(segment_);
+}
+
+void FlockMorph::Load(StateReader* in) {
+  in->Take(&steps_);
+  in->Take(&touched_in_all_);
+  std::uint64_t departed = 0;
+  in->Take(&departed);
+  for (Columns3* columns : {&position_, &before_, &way_, &on_path_, &style_}) {
+    for (Column* column : {&columns->x, &columns->y, &columns->z}) in->Take(column);
+  }
+  in->Take(&progress_);
+  in->Take(&gate_);
+  in->Take(&segment_);
+  departed_ = departed;
+  first_ = 0;
+  Settle();
+}
+
 Vec3d FlockMorph::Position(std::size_t tetra) const { return position_.At(rank_[tetra]); }
 
 Vec3d FlockMorph::Velocity(std::size_t tetra) const {

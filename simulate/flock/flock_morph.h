@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "simulate/core/parallel_for.h"
+#include "simulate/core/state_archive.h"
 #include "simulate/fields/grid_field.h"
 #include "simulate/flock/kernels/morph_kernel.h"
 #include "simulate/flock/minimum_distance.h"
@@ -52,6 +53,14 @@ class FlockMorph {
 
   void Step(ThreadPool* pool);
   void UpdateVertices(ThreadPool* pool);  // of who flies, for the time now
+  void Rest();                            // a step in which nothing moves and no time passes
+
+  // Other numbers from the next step on; shapes, orders and the target region stay as they are.
+  void Retune(const MorphOptions& options);
+
+  // What changes while it flies; Load into one made from the same scene.
+  void Save(StateWriter* out) const;
+  void Load(StateReader* in);
 
   std::size_t size() const { return count_; }
   bool Done() const { return first_ == count_; }  // all have arrived

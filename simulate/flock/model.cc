@@ -26,7 +26,9 @@ const Registry<ModelParameters>& Known() {
        {"swarm", "curl noise and the cheapest way to the goals, without inertia; insects",
         "Wang, Jin, Deng, Zhou 2014", SwarmParameters{}},
        {"shape", "insects that form a [[shape]], stay in motion on it, and follow it along a path",
-        "Chen, Luo, Tong, Jin, Deng 2019", ShapeParameters{}}});
+        "Chen, Luo, Tong, Jin, Deng 2019", ShapeParameters{}},
+       {"morph", "tetrahedra fly from the start shape along the path and become the shape",
+        "Wang, Zhou, Deng, Jin 2014", MorphParameters{}}});
   return registry;
 }
 

@@ -17,6 +17,7 @@
 #include "simulate/flock/forces_model.h"
 #include "simulate/flock/lin_model.h"
 #include "simulate/flock/linear_model.h"
+#include "simulate/flock/morph_model.h"
 #include "simulate/flock/opensteer_model.h"
 #include "simulate/flock/registry.h"
 #include "simulate/flock/shape_model.h"
@@ -31,7 +32,7 @@ const ModelInfo* FindModel(std::string_view name);
 using ModelParameters =
     std::variant<BoidsParameters<double>, LinParameters<double>, LinearParameters<double>,
                  ForcesParameters, OpenSteerParameters, BSwarmParameters, SwarmParameters,
-                 ShapeParameters>;
+                 ShapeParameters, MorphParameters>;
 
 // Registry::Resolve and Registry::Complete of the models.
 ModelParameters ResolveModel(const ModelSpec& spec);

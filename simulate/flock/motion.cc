@@ -8,6 +8,7 @@
 #include "simulate/flock/forces_motion.h"
 #include "simulate/flock/lin_motion.h"
 #include "simulate/flock/linear_motion.h"
+#include "simulate/flock/morph_motion.h"
 #include "simulate/flock/opensteer_motion.h"
 #include "simulate/flock/shape_motion.h"
 #include "simulate/flock/swarm_motion.h"
@@ -27,6 +28,7 @@ struct Make {
   Result operator()(const LinearParameters<double>& p) { return MakeLinearMotion<T>(p, context); }
   Result operator()(const OpenSteerParameters& p) { return MakeOpenSteerMotion(p, context, *herd); }
   Result operator()(const BSwarmParameters& p) { return MakeBSwarmMotion(p, context, *herd); }
+  Result operator()(const MorphParameters& p) { return MakeMorphMotion<T>(p, context, herd); }
   Result operator()(const ForcesParameters& p) { return MakeForcesMotion(p, context, *herd); }
   Result operator()(const SwarmParameters& p) { return MakeSwarmMotion(p, context, *herd); }
   Result operator()(const ShapeParameters& p) { return MakeShapeMotion(p, context, *herd); }

@@ -50,6 +50,9 @@ class Motion {
 
   // Animals that a minimum-distance enforcement of the motion's own moved at the last step.
   virtual std::int64_t touched() const { return 0; }
+
+  // Animals that are tetrahedra: appends the four corners of each, as they are now, by agent [m].
+  virtual void AppendCorners(ThreadPool* /*pool*/, std::vector<Vec3<float>>* /*corners*/) {}
 };
 
 // What a motion may be made from, besides the parameters.
@@ -57,6 +60,7 @@ struct MotionContext {
   const World* world = nullptr;                    // lives as long as the motion
   std::string species;                             // the herd's
   std::string shape, path;                         // the species' own, by name; may be empty
+  std::string start_shape;                         // likewise
   const std::vector<ModelSpec>* forces = nullptr;  // [[species.force]], checked
   std::string kernel;          // instruction set by name; empty: the fastest there is
   ThreadPool* pool = nullptr;  // for the preparation

@@ -4,8 +4,10 @@
 #include "simulate/flock/simulate_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
+#include <memory>
 #include <numbers>
 #include <optional>
 
@@ -14,6 +16,8 @@
 #include "simulate/flock/load_scene.h"
 #include "simulate/flock/scene_checkpoint.h"
 #include "simulate/flock/streams.h"
+#include "simulate/shapes/animated_mesh_writer.h"
+#include "simulate/shapes/tetra_mesh.h"
 
 namespace flocklift {
 namespace {
@@ -102,6 +106,7 @@ void AddSpecies(const Scene& scene, std::size_t species_index, Population* popul
   swarm.spec = species.model;
   swarm.shape = species.shape;
   swarm.path = species.path;
+  swarm.start_shape = species.start_shape;
   swarm.forces = species.forces;
   for (std::size_t k = 0; k < size_draws.size(); ++k) {
     const std::size_t agent = first + k;
@@ -154,6 +159,42 @@ void Timed(double* wall_s, double* cpu_s, const Work& work) {
   work();
   *wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   *cpu_s += static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+}
+
+// As far as anything may ever get from where it was [m].
+double ExtentOf(const World& world) {
+  constexpr double kFar = World::kFar;
+  Vec3d low{kFar, kFar, kFar}, high = -low;
+  const auto take = [&](const Vec3d& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  };
+  for (const ShapeInTime& shape : world.shapes) {
+    for (const TriangleMesh& mesh : shape.meshes) {
+      for (const Vec3d& p : mesh.vertices) take(p);
+    }
+  }
+  for (const PathSpec& path : world.paths) {
+    for (const Vec3d& p : path.points) take(p);
+  }
+  const Vec3d size = high - low;
+  return 1.1 * std::max({size.x, size.y, size.z});
+}
+
+AnimatedMeshWriter OpenTetrahedra(const std::filesystem::path& path, const Scene& scene,
+                                  const World& world, std::size_t corners) {
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  for (std::uint32_t first = 0; first < corners; first += 4) {
+    for (const auto& [a, b, c] : kTetraFaces) {
+      faces.push_back({first + static_cast<std::uint32_t>(a), first + static_cast<std::uint32_t>(b),
+                       first + static_cast<std::uint32_t>(c)});
+    }
+  }
+  return AnimatedMeshWriter(path, faces, corners,
+                            {.fps = scene.fps,
+                             .most_frames = scene.FrameCount(),
+                             .quantize = true,
+                             .extent = ExtentOf(world)});
 }
 
 void AddOrientations(double fps, Trajectory* trajectory) {
@@ -224,11 +265,19 @@ SceneResult SimulateScene(const Scene& scene, const SimulateOptions& options,
     result.truth.trajectories.push_back({.id = animal.id, .points = {}});
     result.truth.trajectories.back().points.reserve(static_cast<std::size_t>(frames));
   }
-  SceneCheckpoint checkpoint(options.checkpoint, options.checkpoint_every, scene);
+  const std::size_t corners = engine->TetrahedraCorners().size();
+  std::unique_ptr<AnimatedMeshWriter> tetrahedra;
+  if (!options.tetrahedra.empty() && corners > 0 && frames > 0) {
+    tetrahedra.reset(new AnimatedMeshWriter(
+        OpenTetrahedra(options.tetrahedra, scene, population.world, corners)));
+  }
+  SceneCheckpoint checkpoint(tetrahedra ? std::filesystem::path{} : options.checkpoint,
+                             options.checkpoint_every, scene);
   std::int64_t frame = 1 - warmup_frames;
   checkpoint.Resume(&*engine, &frame, &result.truth);
   for (; frame <= frames; ++frame) {
     if (frame > 0) Record(engine->State(), static_cast<int>(frame), &result.truth);
+    if (frame > 0 && tetrahedra) tetrahedra->AddFrame(engine->TetrahedraCorners());
     if (frame < frames) {
       Timed(&result.step_wall_s, &result.step_cpu_s, [&] {
         for (int k = 0; k < scene.substeps; ++k) engine->Step();
@@ -238,6 +287,7 @@ SceneResult SimulateScene(const Scene& scene, const SimulateOptions& options,
     Report(progress, frame + warmup_frames, frames + warmup_frames);
   }
   checkpoint.Remove();
+  if (tetrahedra) tetrahedra->Finish();
   for (Trajectory& trajectory : result.truth.trajectories) AddOrientations(scene.fps, &trajectory);
 
   result.agents = static_cast<std::int64_t>(population.animals.size());

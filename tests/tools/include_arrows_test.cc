@@ -54,6 +54,7 @@ const std::vector<Library> kLibraries = {
     {"HDF5", std::regex("(hdf5|H5.*)\\.h"), {"simulate/core"}},
     {"assimp", std::regex("assimp/.*"), {"simulate/shapes"}},
     {"FLANN", std::regex("flann/.*"), {"simulate/shapes", "simulate/flock"}},
+    {"TetGen", std::regex("tetgen\\.h"), {"simulate/shapes"}},
     {"CLI11", std::regex("CLI/.*"), {"tools"}},
     {"FFmpeg", std::regex("lib(av|sw).*/.*"), {"simulate/render", "track"}},
 };

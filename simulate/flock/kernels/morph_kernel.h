@@ -4,7 +4,7 @@
 // The inner loops of flock morphing, one variant per instruction set, chosen at run time: where
 // each tetrahedron flies in a step, and where its corners are then. Lanes hold tetrahedra; nothing
 // is contracted into fused operations: all variants give the same bytes. Plain pointers and no
-// shared inline code, for the reasons in boids_kernel.h.
+// shared inline code, for the reasons in kernels.h.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_KERNELS_MORPH_KERNEL_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_KERNELS_MORPH_KERNEL_H_

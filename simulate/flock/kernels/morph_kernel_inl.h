@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The body of every variant of the morph kernels. Everything lives in an anonymous namespace
-// (boids_kernel.h says why).
+// (kernels.h says why).
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_KERNELS_MORPH_KERNEL_INL_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_KERNELS_MORPH_KERNEL_INL_H_

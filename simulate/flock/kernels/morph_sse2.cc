@@ -1,17 +1,21 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "simulate/flock/kernels/arch.h"
+
+FLOCKLIFT_KERNEL_ARCH(Sse2, xsimd::sse2)
+
 #include "simulate/flock/kernels/morph_kernel_inl.h"
 
 namespace flocklift {
 
 std::uint32_t MorphMoveSse2(const MorphMoveJob& job, std::uint32_t first, std::uint32_t last,
                             std::uint32_t* events) {
-  return MorphMove<xsimd::batch<float, xsimd::sse2>>(job, first, last, events);
+  return MorphMove<xsimd::batch<float, Sse2>>(job, first, last, events);
 }
 
 void MorphShapeSse2(const MorphShapeJob& job, std::uint32_t first, std::uint32_t last) {
-  MorphShape<xsimd::batch<float, xsimd::sse2>>(job, first, last);
+  MorphShape<xsimd::batch<float, Sse2>>(job, first, last);
 }
 
 }  // namespace flocklift

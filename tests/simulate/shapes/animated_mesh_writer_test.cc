@@ -16,6 +16,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "simulate/core/check.h"
+#include "simulate/shapes/animated_mesh_frames.h"
+
 namespace flocklift {
 namespace {
 
@@ -142,6 +145,30 @@ TEST(AnimatedMeshWriter, EveryAccessorLiesInTheData) {
       EXPECT_EQ(view["byteOffset"].get<std::size_t>() % 4, 0u);
     }
   }
+}
+
+TEST(AnimatedMeshFrames, ReadsBackWhatWasWritten) {
+  const auto frames = Frames();
+  for (const bool quantize : {false, true}) {
+    const AnimatedMeshFrames read(Write("read.glb", quantize));
+    ASSERT_EQ(read.frame_count(), frames.size());
+    ASSERT_EQ(read.vertex_count(), 4u);
+    for (std::size_t f = frames.size(); f-- > 0;) {
+      const std::vector<Vec3d> vertices = read.Frame(f);
+      for (std::size_t v = 0; v < 4; ++v) {
+        const Vec3<float>& p = frames[f][v];
+        EXPECT_LT(Norm(vertices[v] - Vec3d{p.x, p.y, p.z}), quantize ? 2 * 25 / 65000.0 : 1e-5);
+      }
+    }
+    EXPECT_THROW(read.Frame(frames.size()), std::invalid_argument);
+  }
+}
+
+TEST(AnimatedMeshFrames, RefusesOtherFiles) {
+  const fs::path path = fs::path(testing::TempDir()) / "text.glb";
+  EXPECT_THROW(AnimatedMeshFrames{path / "missing"}, InputError);
+  std::ofstream(path) << "not a mesh, but long enough for a header";
+  EXPECT_THROW(AnimatedMeshFrames{path}, InputError);
 }
 
 TEST(AnimatedMeshWriter, OneFrameIsAMeshThatStands) {

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tools/scene_tetrahedra.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "simulate/render/surface.h"
+#include "simulate/shapes/animated_mesh_frames.h"
+
+namespace flocklift {
+namespace {
+
+constexpr std::array<Color, 3> kTones{{{70, 140, 225}, {190, 130, 60}, {90, 170, 110}}};
+
+bool IsMorph(const SpeciesSpec& species) { return species.model.name == "morph"; }
+
+}  // namespace
+
+bool HasTetrahedra(const Scene& scene) {
+  return std::any_of(scene.species.begin(), scene.species.end(), IsMorph);
+}
+
+void AddTetrahedra(const Scene& scene, const std::filesystem::path& path, Scenery* scenery) {
+  const auto frames = std::make_shared<const AnimatedMeshFrames>(path);
+  MovingSurface surface;
+  surface.triangles = TetrahedraFaces(frames->vertex_count() / 4);
+  std::size_t which = 0;
+  for (const SpeciesSpec& species : scene.species) {
+    if (!IsMorph(species)) continue;
+    surface.tones.insert(surface.tones.end(), 4 * static_cast<std::size_t>(species.count),
+                         kTones[which++ % kTones.size()]);
+  }
+  surface.is_closed = true;
+  surface.at = [frames](int frame, std::vector<Vec3d>* vertices, std::vector<Vec3d>*) {
+    *vertices = frames->Frame(static_cast<std::size_t>(frame - 1));
+  };
+  scenery->AddSurface(std::move(surface));
+}
+
+DrawnAnimals WithoutTetrahedra(const Scene& scene, const SceneResult& result) {
+  DrawnAnimals drawn;
+  drawn.trajectories.fps = result.truth.fps;
+  drawn.trajectories.has_velocity = result.truth.has_velocity;
+  drawn.trajectories.has_orientation = result.truth.has_orientation;
+  std::size_t next = 0;
+  const auto take = [&](std::size_t end, bool draws) {
+    for (; next < end; ++next) {
+      if (!draws) continue;
+      drawn.trajectories.trajectories.push_back(result.truth.trajectories[next]);
+      drawn.animals.push_back(result.animals[next]);
+    }
+  };
+  for (const SpeciesSpec& species : scene.species) {
+    take(next + static_cast<std::size_t>(species.count), !IsMorph(species));
+  }
+  take(result.animals.size(), true);  // the predators
+  return drawn;
+}
+
+}  // namespace flocklift

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The species of a scene that are tetrahedra (model morph): their film is a moving surface instead
+// of animals.
+
+#ifndef FLOCKLIFT_TOOLS_SCENE_TETRAHEDRA_H_
+#define FLOCKLIFT_TOOLS_SCENE_TETRAHEDRA_H_
+
+#include <filesystem>
+#include <vector>
+
+#include "simulate/core/animal.h"
+#include "simulate/core/scene.h"
+#include "simulate/flock/simulate_scene.h"
+#include "simulate/render/scenery.h"
+
+namespace flocklift {
+
+bool HasTetrahedra(const Scene& scene);
+
+// Adds what SimulateScene wrote to `path`, read back frame by frame; each species has its colour.
+void AddTetrahedra(const Scene& scene, const std::filesystem::path& path, Scenery* scenery);
+
+// What of a result is left to be drawn as animals.
+struct DrawnAnimals {
+  Trajectories trajectories;
+  std::vector<Animal> animals;
+};
+DrawnAnimals WithoutTetrahedra(const Scene& scene, const SceneResult& result);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TOOLS_SCENE_TETRAHEDRA_H_
