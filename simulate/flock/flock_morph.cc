@@ -363,10 +363,7 @@ MorphShapeJob FlockMorph::ShapeJob() {
   return job;
 }
 
-void FlockMorph::Rest() {
-  before_ = position_;
-  touched_ = 0;
-}
+void FlockMorph::Rest() { touched_ = 0; }
 
 void FlockMorph::Retune(const MorphOptions& options) {
   Check(options.speed0 > 0 && options.d_min >= 0 && options.k_a > 0,

@@ -66,6 +66,9 @@ class FlockMorph {
   bool Done() const { return first_ == count_; }  // all have arrived
   double time() const { return static_cast<double>(steps_) * dt_; }
   std::size_t InFlight() const { return departed_ - first_; }
+  // Ranks below the first rest at their places, ranks from the second on have not left.
+  std::size_t FirstInFlight() const { return first_; }
+  std::size_t EndInFlight() const { return departed_; }
   std::int64_t touched() const { return touched_; }  // by the minimum distance, last step
   std::int64_t TouchedInAll() const { return touched_in_all_; }  // over all steps
 

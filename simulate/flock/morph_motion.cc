@@ -119,16 +119,17 @@ class MorphMotion final : public Motion<T> {
         world_(*context.world),
         path_(context.path),
         morph_(PrepareMorph(p, context, herd->size())) {
-    Copy(herd);
+    Copy(0, morph_.size(), herd);
   }
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
     if (around.time + 0.5 * around.dt() < start_ || morph_.Done()) {
       morph_.Rest();
-    } else {
-      morph_.Step(pool);
+      return;
     }
-    Copy(herd);
+    const std::size_t first = morph_.FirstInFlight();  // those that arrive now included
+    morph_.Step(pool);
+    Copy(first, morph_.EndInFlight(), herd);
   }
 
   void Retune(const ModelParameters& parameters) override {
@@ -148,8 +149,9 @@ class MorphMotion final : public Motion<T> {
   }
 
  private:
-  void Copy(Herd<T>* herd) const {
-    for (std::size_t k = 0; k < morph_.size(); ++k) {
+  // Tetrahedra are numbered by rank, and the herd keeps that order.
+  void Copy(std::size_t first, std::size_t last, Herd<T>* herd) const {
+    for (std::size_t k = first; k < last; ++k) {
       herd->now.Set(k, Cast<T>(morph_.Position(k)), Cast<T>(morph_.Velocity(k)));
     }
   }
