@@ -142,7 +142,7 @@ struct EventSpec {
 };
 
 struct CameraSpec {
-  std::optional<std::filesystem::path> file;  // instead of all below
+  std::optional<std::filesystem::path> file = {};  // instead of all below
   double fov_deg = 50;                        // horizontal
   int width = 1920, height = 1080;            // [px]
   Vec3d position{0, -45, 1.7};

@@ -19,7 +19,7 @@ Obstacle Triangle() {
 
 TEST(SceneSceneryTest, ShowsWhatTheSwitchesSay) {
   Scene scene;
-  scene.goals.push_back({.position = {1, 2, 3}, .reach = 2});
+  scene.goals.push_back({.species = {}, .position = {1, 2, 3}, .reach = 2});
   scene.paths.push_back({.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}});
   const std::vector<Obstacle> obstacles{Triangle()};
   const auto count = [&](auto member) {
@@ -42,12 +42,14 @@ TEST(SceneSceneryTest, ShowsWhatTheSwitchesSay) {
 TEST(SceneSceneryTest, GoalsFollowTheirMotionAndTheEvents) {
   Scene scene;
   scene.render.goals = true;
-  scene.goals.push_back({.position = {1, 0, 3}, .radius = 4, .period = 8, .reach = 2});
-  scene.goals.push_back({.position = {5, 5, 5}});
-  scene.events.push_back({.time = 3, .change = {}, .goal = 1, .position = {9, 9, 9}});
+  scene.goals.push_back(
+      {.species = {}, .position = {1, 0, 3}, .radius = 4, .period = 8, .reach = 2});
+  scene.goals.push_back({.species = {}, .position = {5, 5, 5}});
+  scene.events.push_back(
+      {.time = 3, .species = {}, .change = {}, .goal = 1, .position = {9, 9, 9}, .wind = {}});
   const Scenery scenery = SceneScenery(scene, {});
   const auto at = [&](double time) {
-    std::vector<Ball> balls;
+    std::vector<TintedBall> balls;
     scenery.With(1, time, [&](const Setting& setting) {
       balls.assign(setting.balls.begin(), setting.balls.end());
     });

@@ -92,7 +92,9 @@ TEST_F(SimulateCommandTest, WritesTheFilesOfTheContract) {
   EXPECT_GT(figures["mean_neighbours"], 0);
   EXPECT_NEAR(figures["mean_wingspan"], 0.7, 1e-9);
   EXPECT_NEAR(figures["mean_speed"], 10, 4);
-  EXPECT_EQ(summary["phases"][0]["name"], "step");
+  EXPECT_EQ(summary["phases"][0]["name"], "prepare");
+  EXPECT_EQ(summary["phases"][1]["name"], "step");
+  EXPECT_GT(summary["phases"][1]["wall_s"], 0);
 }
 
 TEST_F(SimulateCommandTest, SameBytesAtAnyThreadCount) {

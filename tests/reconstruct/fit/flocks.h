@@ -29,7 +29,7 @@ inline Scene BoidsScene(std::uint64_t seed) {
   return scene;
 }
 
-inline Trajectories Fly(const Scene& scene) { return SimulateScene(scene, 1, {}).truth; }
+inline Trajectories Fly(const Scene& scene) { return SimulateScene(scene, {}, {}).truth; }
 
 // Independent noise on every position [m].
 inline Trajectories WithNoise(Trajectories flock, double sd, std::uint64_t seed) {

@@ -201,7 +201,7 @@ TEST(Replay, WithoutItsNoiseAModelPartsLater) {
   Scene scene = OpenSkyScene();
   scene.species[0].model.parameters["noise"] = 3;
   scene.species[0].model.parameters["noise_time"] = 0.5;
-  const Trajectories truth = SimulateScene(scene, 1, {}).truth;
+  const Trajectories truth = SimulateScene(scene, {}, {}).truth;
   ReplayOptions options;
   options.frame = 1;
   // Another seed: the replay's gusts are not the truth's.
@@ -212,7 +212,7 @@ TEST(Replay, WithoutItsNoiseAModelPartsLater) {
   // A model that has none is its own.
   const Scene calm = OpenSkyScene();
   const Divergence same =
-      Replay(options, By(calm.species[0].model), SimulateScene(calm, 1, {}).truth, kFps, 77, 1)
+      Replay(options, By(calm.species[0].model), SimulateScene(calm, {}, {}).truth, kFps, 77, 1)
           .divergence.back();
   EXPECT_EQ(same.noiseless_rms, same.model_rms);
 }
