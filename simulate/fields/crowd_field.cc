@@ -99,19 +99,26 @@ CrowdField::CrowdField(const ScalarField& distance, const CrowdOptions& options,
   for (std::size_t n = 0; n < nodes; ++n) {
     discomfort_[n] = Repulsion(static_cast<double>(distance.values[n]), diagonal);
   }
-  for (const std::vector<Solid>& solids : goals) {
-    Check(!solids.empty(), "a group of a crowd needs a goal");
-    Group group;
-    group.goals = solids;
-    for (const Solid& goal : solids) {
-      const std::vector<std::size_t> inside = GoalNodes(distance, goal);
-      group.seeds.insert(group.seeds.end(), inside.begin(), inside.end());
-    }
+  groups_.resize(goals.size());
+  for (Group& group : groups_) {
     group.potential.resize(nodes);
     group.velocity.resize(nodes);
-    groups_.push_back(std::move(group));
   }
+  SetGoals(goals);
   Update({}, {});
+}
+
+void CrowdField::SetGoals(std::span<const std::vector<Solid>> goals) {
+  Check(goals.size() == groups_.size(), "a crowd keeps its groups");
+  for (std::size_t k = 0; k < goals.size(); ++k) {
+    Check(!goals[k].empty(), "a group of a crowd needs a goal");
+    groups_[k].goals = goals[k];
+    groups_[k].seeds.clear();
+    for (const Solid& goal : goals[k]) {
+      const std::vector<std::size_t> inside = GoalNodes(distance_, goal);
+      groups_[k].seeds.insert(groups_[k].seeds.end(), inside.begin(), inside.end());
+    }
+  }
 }
 
 double CrowdField::Speed(std::size_t node, const Vec3d& direction) const {

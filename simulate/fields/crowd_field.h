@@ -51,11 +51,15 @@ class CrowdField {
   CrowdField(const ScalarField& distance, const CrowdOptions& options,
              std::span<const std::vector<Solid>> goals, int threads = 1);
 
+  // Goals that have moved, of as many groups as before; followed from the next Update on.
+  void SetGoals(std::span<const std::vector<Solid>> goals);
+
   // Takes in where all animals of all groups are and go [m, m/s]: density, flow, and every group's
   // potential. Groups are solved on several threads, with the same bytes as on one.
   void Update(std::span<const Vec3d> positions, std::span<const Vec3d> velocities);
 
   const Grid& grid() const { return distance_.grid; }
+  const ScalarField& distance() const { return distance_; }
   double Density(std::size_t node) const { return density_[node]; }  // rho [animals per node]
   const Vec3d& Flow(std::size_t node) const { return flow_[node]; }  // v [m/s]
   // f of arriving at `node` along the unit vector `direction` [m/s].

@@ -150,6 +150,25 @@ TEST(CrowdField, WallsAreGoneRound) {
   EXPECT_GT(highest, 7.9);
 }
 
+TEST(CrowdField, GoalsThatMoveMakeTheFieldOfTheNewOnes) {
+  const Grid grid{{0, 0, 0}, 0.5, 31, 21, 1};
+  const ScalarField distance = DistanceField(grid, std::vector<Solid>{Ball{{6, 5, 0}, 2}});
+  const Goals before = {{Ball{{1, 1, 0}, 1}}, {Ball{{14, 2, 0}, 1}}};
+  const Goals after = {{Ball{{12, 8, 0}, 1}}, {Ball{{2, 9, 0}, 0.1}, Ball{{14, 2, 0}, 1}}};
+  const std::vector<Vec3d> positions = {{3, 3, 0}, {3.2, 3.1, 0}}, velocities = {{1, 0, 0}, {}};
+  CrowdField moved(distance, {}, before), fresh(distance, {}, after);
+  moved.SetGoals(after);
+  moved.Update(positions, velocities);
+  fresh.Update(positions, velocities);
+  for (std::size_t group = 0; group < 2; ++group) {
+    for (std::size_t n = 0; n < grid.size(); ++n) {
+      ASSERT_EQ(moved.Potential(group, n), fresh.Potential(group, n));
+      ASSERT_EQ(moved.Velocity(group, grid.Node(n)), fresh.Velocity(group, grid.Node(n)));
+    }
+  }
+  EXPECT_THROW(moved.SetGoals(Goals{after[0]}), std::invalid_argument);
+}
+
 // How far rows of a corridor belong to one direction: the mean of ((a - b) / (a + b))^2 over rows
 // in which a walk one way and b the other (M. Rex, H. Loewen, Phys. Rev. E 75 (2007) 051402).
 double LaneOrder(const std::vector<Vec3d>& positions, int rows) {
