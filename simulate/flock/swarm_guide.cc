@@ -8,8 +8,8 @@
 
 #include "simulate/core/check.h"
 #include "simulate/core/parallel_for.h"
-#include "simulate/fields/distance_field.h"
 #include "simulate/fields/solids.h"
+#include "simulate/flock/wall_field.h"
 
 namespace flocklift {
 namespace {
@@ -20,27 +20,6 @@ std::vector<Solid> GoalBalls(std::span<const GoalSpec> goals) {
   return balls;
 }
 
-// To the nearest face of a box, positive inside.
-double DistanceWithin(const Region& box, const Vec3d& p) {
-  return std::min({p.x - box.low.x, box.high.x - p.x, p.y - box.low.y, box.high.y - p.y,
-                   p.z - box.low.z, box.high.z - p.z});
-}
-
-ScalarField WallDistances(const World& world, double spacing, int threads) {
-  const Region& box = world.box;
-  Check(std::isfinite(Norm(box.high - box.low)), "a swarm with goals or obstacles needs a box");
-  const Vec3d rim{spacing, spacing, spacing};
-  std::vector<Solid> solids;
-  for (const Obstacle& obstacle : world.obstacles) solids.push_back(obstacle.solid);
-  ScalarField field =
-      DistanceField(GridOver(box.low - rim, box.high + rim, spacing), solids, threads);
-  for (std::size_t node = 0; node < field.grid.size(); ++node) {
-    field.values[node] = std::min(field.values[node],
-                                  static_cast<float>(DistanceWithin(box, field.grid.Node(node))));
-  }
-  return field;
-}
-
 std::int8_t Byte(double share) {
   return static_cast<std::int8_t>(std::lround(127 * std::clamp(share, -1.0, 1.0)));
 }
@@ -49,7 +28,7 @@ std::int8_t Byte(double share) {
 
 GuideField::GuideField(const World& world, double spacing, const CostOptions& options,
                        std::span<const GoalSpec> goals, int threads)
-    : distance_(WallDistances(world, spacing, threads)), threads_(threads) {
+    : distance_(WallField(world, spacing, threads)), threads_(threads) {
   if (!goals.empty()) cost_.emplace(distance_, options, GoalBalls(goals), threads);
   Pack();
 }
