@@ -28,7 +28,9 @@ const Registry<ModelParameters>& Known() {
        {"shape", "insects that form a [[shape]], stay in motion on it, and follow it along a path",
         "Chen, Luo, Tong, Jin, Deng 2019", ShapeParameters{}},
        {"morph", "tetrahedra fly from the start shape along the path and become the shape",
-        "Wang, Zhou, Deng, Jin 2014", MorphParameters{}}});
+        "Wang, Zhou, Deng, Jin 2014", MorphParameters{}},
+       {"crowd", "groups that walk to goals of their own, round others and along with the flow",
+        "Treuille, Cooper, Popovic 2006", CrowdParameters{}}});
   return registry;
 }
 

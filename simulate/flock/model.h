@@ -14,6 +14,7 @@
 #include "simulate/core/scene.h"
 #include "simulate/flock/boids.h"
 #include "simulate/flock/bswarm_model.h"
+#include "simulate/flock/crowd_model.h"
 #include "simulate/flock/forces_model.h"
 #include "simulate/flock/lin_model.h"
 #include "simulate/flock/linear_model.h"
@@ -32,7 +33,7 @@ const ModelInfo* FindModel(std::string_view name);
 using ModelParameters =
     std::variant<BoidsParameters<double>, LinParameters<double>, LinearParameters<double>,
                  ForcesParameters, OpenSteerParameters, BSwarmParameters, SwarmParameters,
-                 ShapeParameters, MorphParameters>;
+                 ShapeParameters, MorphParameters, CrowdParameters>;
 
 // Registry::Resolve and Registry::Complete of the models.
 ModelParameters ResolveModel(const ModelSpec& spec);

@@ -5,6 +5,7 @@
 
 #include "simulate/flock/boids_motion.h"
 #include "simulate/flock/bswarm_motion.h"
+#include "simulate/flock/crowd_motion.h"
 #include "simulate/flock/forces_motion.h"
 #include "simulate/flock/lin_motion.h"
 #include "simulate/flock/linear_motion.h"
@@ -32,6 +33,7 @@ struct Make {
   Result operator()(const ForcesParameters& p) { return MakeForcesMotion(p, context, *herd); }
   Result operator()(const SwarmParameters& p) { return MakeSwarmMotion(p, context, *herd); }
   Result operator()(const ShapeParameters& p) { return MakeShapeMotion(p, context, *herd); }
+  Result operator()(const CrowdParameters& p) { return MakeCrowdMotion(p, context, herd); }
 };
 
 }  // namespace

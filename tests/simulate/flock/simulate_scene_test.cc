@@ -217,7 +217,7 @@ TEST_P(ModelScene, StaysNearItsBoxAndMoves) {
 
 INSTANTIATE_TEST_SUITE_P(All, ModelScene,
                          ::testing::Values("opensteer", "glass_box", "mating", "village_migration",
-                                           "escape", "phase_transition"));
+                                           "escape", "phase_transition", "crowd"));
 
 // What the demo promises to the reconstruction: the mean speed given as a prior is the flock's own,
 // and the flock stays where the camera sees it.
