@@ -9,11 +9,13 @@
 #include <memory>
 #include <optional>
 
+#include "simulate/camera/projection.h"
 #include "simulate/core/check.h"
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/rng.h"
 #include "simulate/render/body.h"
 #include "simulate/render/flight.h"
+#include "simulate/render/speck.h"
 #include "simulate/render/visibility.h"
 
 namespace flocklift {
@@ -27,8 +29,15 @@ struct Row {
   Detection detection;
 };
 
-std::optional<Row> Observe(const FlyingAnimal& animal, int frame, double time, const Camera& camera,
-                           const Rigid3d& cam_from_world, const DepthBuffer* surfaces) {
+// The place in the image, if the sensor has it; a first look before any body is made.
+std::optional<Vec2d> PlaceOnSensor(const Vec3d& in_cam, const Camera& camera) {
+  if (!(in_cam.z > 0)) return std::nullopt;
+  const Vec2d pixel = Project(camera.intrinsics, in_cam);
+  return camera.Sees(pixel) ? std::optional(pixel) : std::nullopt;
+}
+
+std::optional<Detection> ObserveBody(const FlyingAnimal& animal, double time, const Camera& camera,
+                                     const Rigid3d& cam_from_world, const DepthBuffer* surfaces) {
   const auto body = ProjectBody(animal, time, camera, cam_from_world);
   if (!body || !camera.Sees(body->center)) return std::nullopt;
   const Box bounds = BoundsOf(body->silhouette);
@@ -36,12 +45,24 @@ std::optional<Row> Observe(const FlyingAnimal& animal, int frame, double time, c
       std::max(body->center.x - bounds.left, bounds.left + bounds.width - body->center.x);
   const double half_height =
       std::max(body->center.y - bounds.top, bounds.top + bounds.height - body->center.y);
-  Row row{.id = animal.animal.id, .detection = {}};
-  row.detection.frame = frame;
-  row.detection.box = Box::Around(body->center, 2 * half_width, 2 * half_height);
-  row.detection.shape = ShapeOf(MomentsOf(body->silhouette));
-  if (surfaces != nullptr) row.detection.visibility = VisibleShare(*body, *surfaces);
-  return row;
+  Detection seen;
+  seen.box = Box::Around(body->center, 2 * half_width, 2 * half_height);
+  seen.shape = ShapeOf(body->moments);
+  if (surfaces != nullptr) seen.visibility = VisibleShare(*body, *surfaces);
+  return seen;
+}
+
+std::optional<Detection> ObserveSpeck(const FlyingAnimal& animal, double time,
+                                      const SpeckAreas& areas, const Camera& camera,
+                                      const Rigid3d& cam_from_world, const DepthBuffer* surfaces) {
+  const auto speck = ProjectSpeckBox(animal, time, areas, camera, cam_from_world);
+  if (!speck) return std::nullopt;
+  const Vec2d center = speck->moments.centroid;
+  Detection seen;
+  seen.box = Box::Around(center, 2 * speck->half_width, 2 * speck->half_height);
+  seen.shape = ShapeOf(speck->moments);
+  if (surfaces != nullptr) seen.visibility = VisibleShare(center, speck->depth, *surfaces);
+  return seen;
 }
 
 // Random numbers drawn in a fixed order, so that one kind of noise does not change another.
@@ -84,6 +105,7 @@ Tracks SynthesizeTracks(const Trajectories& trajectories, std::span<const Animal
   std::vector<std::vector<Row>> rows(static_cast<std::size_t>(frames));
   const bool may_hide = scenery != nullptr && !scenery->empty();
   const SurfacePainter painter(camera);
+  const SpeckAreas areas;
   ParallelFor(threads, 0, frames, kGrain, [&](std::int64_t first, std::int64_t last) {
     std::unique_ptr<DepthBuffer> surfaces;
     if (may_hide) surfaces = std::make_unique<DepthBuffer>(camera.width, camera.height);
@@ -96,10 +118,18 @@ Tracks SynthesizeTracks(const Trajectories& trajectories, std::span<const Animal
           for (const Surface& view : views) painter.Draw(view, cam_from_world, 0, surfaces.get());
         });
       }
-      for (const FlyingAnimal& animal : flight.At(frame)) {
-        auto row =
-            Observe(animal, frame, flight.TimeOf(frame), camera, cam_from_world, surfaces.get());
-        if (row) rows[static_cast<std::size_t>(k)].push_back(*std::move(row));
+      const double time = flight.TimeOf(frame);
+      const auto is_in_view = [&](const Vec3d& position) {
+        return PlaceOnSensor(cam_from_world * position, camera).has_value();
+      };
+      for (const FlyingAnimal& animal : flight.At(frame, is_in_view)) {
+        const double depth = (cam_from_world * animal.position).z;
+        auto seen = SizePx(animal.animal, depth, camera) < kSpeckPx
+                        ? ObserveSpeck(animal, time, areas, camera, cam_from_world, surfaces.get())
+                        : ObserveBody(animal, time, camera, cam_from_world, surfaces.get());
+        if (!seen) continue;
+        seen->frame = frame;
+        rows[static_cast<std::size_t>(k)].push_back({animal.animal.id, *std::move(seen)});
       }
     }
   });

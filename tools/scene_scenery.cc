@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "simulate/shapes/spline_path.h"
+
 namespace flocklift {
 namespace {
 
@@ -21,24 +23,17 @@ Vec3d PlaceOfGoal(const Scene& scene, std::size_t index, double time) {
   return GoalPosition(goal, time);
 }
 
-// A uniform cubic B-spline from the first to the last of its control points: beyond each end one
-// more lies opposite to the second.
-std::vector<Vec3d> SplineThrough(const std::vector<Vec3d>& points) {
-  constexpr int kSteps = 24;  // of each segment
-  std::vector<Vec3d> control{2.0 * points[0] - points[1]};
-  control.insert(control.end(), points.begin(), points.end());
-  control.push_back(2.0 * points.back() - points[points.size() - 2]);
-  std::vector<Vec3d> curve{points.front()};
-  for (std::size_t k = 0; k + 3 < control.size(); ++k) {
-    for (int step = 1; step <= kSteps; ++step) {
-      const double t = static_cast<double>(step) / kSteps, s = 1 - t;
-      curve.push_back((s * s * s / 6) * control[k] +
-                      ((3 * t * t * t - 6 * t * t + 4) / 6) * control[k + 1] +
-                      ((3 * s * s * s - 6 * s * s + 4) / 6) * control[k + 2] +
-                      (t * t * t / 6) * control[k + 3]);
-    }
+// The path as it is flown (simulate/shapes/spline_path.h), in points close enough to look smooth.
+std::vector<Vec3d> PointsAlong(const std::vector<Vec3d>& control) {
+  constexpr std::size_t kSteps = 24;  // from one control point to the next
+  const SplinePath path(control, /*closed=*/false);
+  const std::size_t steps = kSteps * (control.size() - 1);
+  std::vector<Vec3d> points;
+  for (std::size_t k = 0; k <= steps; ++k) {
+    points.push_back(
+        path.Position(path.length() * static_cast<double>(k) / static_cast<double>(steps)));
   }
-  return curve;
+  return points;
 }
 
 }  // namespace
@@ -58,7 +53,7 @@ Scenery SceneScenery(const Scene& scene, std::span<const Obstacle> obstacles) {
     scenery.AddGround({{box.low.x, box.low.y, 0}, {box.high.x, box.high.y, 0}});
   }
   if (render.paths) {
-    for (const PathSpec& path : scene.paths) scenery.AddPath(SplineThrough(path.points));
+    for (const PathSpec& path : scene.paths) scenery.AddPath(PointsAlong(path.points));
   }
   for (std::size_t k = 0; render.goals && k < scene.goals.size(); ++k) {
     const double reach = scene.goals[k].reach;

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <queue>
+#include <map>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -94,18 +94,26 @@ class AnimalRows {
 // rows, which must be by increasing frame.
 template <typename Animals, typename RowsOf, typename Take>
 void ForEachByFrame(const Animals& animals, const RowsOf& rows_of, const Take& take) {
-  using Next = std::tuple<int, Id, std::size_t, std::size_t>;  // frame, id, animal, row
-  std::priority_queue<Next, std::vector<Next>, std::greater<>> queue;
+  using Next = std::tuple<Id, std::size_t, std::size_t>;  // id, animal, row
+  std::map<int, std::vector<Next>> waiting;               // by frame
   for (std::size_t k = 0; k < animals.size(); ++k) {
     const auto& rows = rows_of(animals[k]);
-    if (!rows.empty()) queue.emplace(rows.front().frame, animals[k].id, k, 0);
+    if (!rows.empty()) waiting[rows.front().frame].emplace_back(animals[k].id, k, 0);
   }
-  while (!queue.empty()) {
-    const auto [frame, id, animal, row] = queue.top();
-    queue.pop();
-    const auto& rows = rows_of(animals[animal]);
-    take(id, rows[row]);
-    if (row + 1 < rows.size()) queue.emplace(rows[row + 1].frame, id, animal, row + 1);
+  while (!waiting.empty()) {
+    std::vector<Next> now = std::move(waiting.begin()->second);
+    waiting.erase(waiting.begin());
+    // Those that go on from one frame to the next wait in order already.
+    if (!std::is_sorted(now.begin(), now.end())) std::sort(now.begin(), now.end());
+    auto next = waiting.end();
+    for (const auto& [id, animal, row] : now) {
+      const auto& rows = rows_of(animals[animal]);
+      take(id, rows[row]);
+      if (row + 1 == rows.size()) continue;
+      const int frame = rows[row + 1].frame;
+      if (next == waiting.end() || next->first != frame) next = waiting.try_emplace(frame).first;
+      next->second.emplace_back(id, animal, row + 1);
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "simulate/core/check.h"
 #include "simulate/core/fps.h"
+#include "simulate/core/number_text.h"
 #include "simulate/core/table_writer.h"
 #include "simulate/core/text_writer.h"
 
@@ -27,17 +28,22 @@ class CsvWriter : public TableWriter {
 
   void Add(int frame, Id id, std::span<const double> values, std::string_view end_of_row) override {
     FLOCKLIFT_DCHECK(values.size() == column_count_);
-    auto out = std::back_inserter(writer_.buffer());
-    fmt::format_to(out, "{},{}", frame, id);
+    fmt::memory_buffer& text = writer_.buffer();
+    AppendInteger(frame, &text);
+    text.push_back(',');
+    AppendInteger(id, &text);
     for (const double value : values) {
+      text.push_back(',');
       if (style_.decimals < 0) {
-        fmt::format_to(out, ",{:.9g}", value);
+        AppendNineDigits(value, &text);
       } else {
-        fmt::format_to(out, ",{:.{}f}", value, style_.decimals);
+        AppendFixed(value, style_.decimals, &text);
       }
     }
-    fmt::format_to(out, "{}\n",
-                   end_of_row.empty() ? std::string_view(style_.end_of_row) : end_of_row);
+    const std::string_view end =
+        end_of_row.empty() ? std::string_view(style_.end_of_row) : end_of_row;
+    text.append(end.data(), end.data() + end.size());
+    text.push_back('\n');
     writer_.FlushIfFull();
   }
 

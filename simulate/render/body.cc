@@ -89,10 +89,18 @@ BodyPart SpindleRim(double length, const Vec3d& viewer) {
   if (sight == Vec3d{}) sight = {0, 0, 1};
   const Vec3d helper = std::abs(sight.x) < 0.7 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
   const Vec3d a = Normalized(Cross(sight, helper)), b = Cross(sight, a);
+  static const auto kCircle = [] {
+    std::array<Vec2d, ConvexPolygon::kMaxCorners> circle;
+    for (std::size_t k = 0; k < circle.size(); ++k) {
+      const double angle =
+          2 * std::numbers::pi * static_cast<double>(k) / ConvexPolygon::kMaxCorners;
+      circle[k] = {std::cos(angle), std::sin(angle)};
+    }
+    return circle;
+  }();
   BodyPart rim;
-  for (int k = 0; k < ConvexPolygon::kMaxCorners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / ConvexPolygon::kMaxCorners;
-    const Vec3d p = std::cos(angle) * a + std::sin(angle) * b;
+  for (const Vec2d& on_circle : kCircle) {
+    const Vec3d p = on_circle.x * a + on_circle.y * b;
     rim.Add(center + Vec3d{p.x * semi_axes.x, p.y * semi_axes.y, p.z * semi_axes.z});
   }
   return rim;
@@ -165,9 +173,11 @@ std::optional<ProjectedBody> ProjectBody(const FlyingAnimal& flying, double time
     polygons.push_back(HullOf({points.data(), static_cast<std::size_t>(part.corners)}));
   }
   body.silhouette = UnionOf(polygons);
-  const SilhouetteMoments moments = MomentsOf(body.silhouette);
-  if (!(moments.area > 0)) return std::nullopt;
-  body.silhouette.Shift({body.center.x - moments.centroid.x, body.center.y - moments.centroid.y});
+  body.moments = MomentsOf(body.silhouette);
+  if (!(body.moments.area > 0)) return std::nullopt;
+  const Vec2d found = body.moments.centroid;
+  body.silhouette.Shift({body.center.x - found.x, body.center.y - found.y});
+  body.moments.centroid = body.center;
   return body;
 }
 

@@ -54,6 +54,7 @@ struct ProjectedBody {
   Vec2d center;      // the projected position, and the silhouette's centroid [px]
   double depth = 0;  // camera-frame z of the position [m]
   Silhouette silhouette;
+  SilhouetteMoments moments;  // of the silhouette
 };
 
 // Nothing when a part of the animal is not in front of the camera, when the distortion has folded

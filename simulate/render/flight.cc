@@ -50,6 +50,11 @@ Flight::Flight(Trajectories trajectories, std::span<const Animal> animals, const
 }
 
 std::vector<FlyingAnimal> Flight::At(int frame) const {
+  return At(frame, [](const Vec3d&) { return true; });
+}
+
+std::vector<FlyingAnimal> Flight::At(int frame,
+                                     const std::function<bool(const Vec3d&)>& wanted) const {
   std::vector<FlyingAnimal> flying;
   const int reach = std::max(1, static_cast<int>(std::lround(kTurnTime * fps_)));
   for (std::size_t k = 0; k < trajectories_.trajectories.size(); ++k) {
@@ -57,7 +62,7 @@ std::vector<FlyingAnimal> Flight::At(int frame) const {
     const auto now =
         std::lower_bound(points.begin(), points.end(), frame,
                          [](const TrajectoryPoint& p, int wanted) { return p.frame < wanted; });
-    if (now == points.end() || now->frame != frame) continue;
+    if (now == points.end() || now->frame != frame || !wanted(now->position)) continue;
     FlyingAnimal& bird = flying.emplace_back();
     bird.animal = animal_of_[k];
     bird.position = now->position;

@@ -9,6 +9,7 @@
 #ifndef FLOCKLIFT_SIMULATE_RENDER_FLIGHT_H_
 #define FLOCKLIFT_SIMULATE_RENDER_FLIGHT_H_
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,8 @@ class Flight {
 
   // Who is there in `frame`, by increasing id.
   std::vector<FlyingAnimal> At(int frame) const;
+  // ... and where `wanted(position)` holds.
+  std::vector<FlyingAnimal> At(int frame, const std::function<bool(const Vec3d&)>& wanted) const;
 
   FrameSpan span() const { return span_; }
   double TimeOf(int frame) const { return (frame - 1) / fps_; }  // [s]

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "simulate/core/check.h"
@@ -15,14 +16,18 @@ namespace {
 // A side of a polygon that is not horizontal: x = x_top + slope (y - top).
 struct Edge {
   double top, bottom, x_top, slope;
+  double left, right;  // bounds
 
   double At(double y) const { return x_top + slope * (y - top); }
 };
 
-// A polygon: its edges [first, last) and its bounds.
+// A polygon: its edges [first, last), and its bounds. A sweep from top to bottom takes the edges in
+// `order` (offsets from `first`), of which `begun` have begun and those in `active` go on.
 struct Piece {
   std::size_t first, last;
   double left, right, top, bottom;
+  std::array<std::uint8_t, ConvexPolygon::kMaxCorners> order{}, active{};
+  int begun = 0, active_count = 0;
 
   bool MayMeet(const Piece& other) const {
     return left < other.right && other.left < right && top < other.bottom && other.top < bottom;
@@ -39,9 +44,21 @@ struct Interval {
   std::size_t left_edge, right_edge;
 };
 
+// Fills `order`: by increasing top.
+void Order(const std::vector<Edge>& edges, Piece* piece) {
+  const Edge* const mine = edges.data() + piece->first;
+  for (std::size_t i = 0; i < piece->last - piece->first; ++i) {
+    std::size_t k = i;
+    for (; k > 0 && mine[i].top < mine[piece->order[k - 1]].top; --k) {
+      piece->order[k] = piece->order[k - 1];
+    }
+    piece->order[k] = static_cast<std::uint8_t>(i);
+  }
+}
+
 Outline OutlineOf(std::span<const ConvexPolygon> polygons) {
   Outline outline;
-  outline.edges.reserve(polygons.size() * 6);
+  outline.edges.reserve(polygons.size() * ConvexPolygon::kMaxCorners);
   outline.pieces.reserve(polygons.size());
   for (const ConvexPolygon& polygon : polygons) {
     if (polygon.corners == 0) continue;
@@ -49,16 +66,18 @@ Outline OutlineOf(std::span<const ConvexPolygon> polygons) {
     Piece piece{outline.edges.size(), 0, start.x, start.x, start.y, start.y};
     for (int k = 0; k < polygon.corners; ++k) {
       Vec2d a = polygon.corner[static_cast<std::size_t>(k)];
-      Vec2d b = polygon.corner[static_cast<std::size_t>((k + 1) % polygon.corners)];
+      Vec2d b = polygon.corner[static_cast<std::size_t>(k + 1 < polygon.corners ? k + 1 : 0)];
       piece.left = std::min(piece.left, a.x);
       piece.right = std::max(piece.right, a.x);
       piece.top = std::min(piece.top, a.y);
       piece.bottom = std::max(piece.bottom, a.y);
       if (a.y == b.y) continue;
       if (a.y > b.y) std::swap(a, b);
-      outline.edges.push_back({a.y, b.y, a.x, (b.x - a.x) / (b.y - a.y)});
+      outline.edges.push_back(
+          {a.y, b.y, a.x, (b.x - a.x) / (b.y - a.y), std::min(a.x, b.x), std::max(a.x, b.x)});
     }
     piece.last = outline.edges.size();
+    Order(outline.edges, &piece);
     outline.pieces.push_back(piece);
   }
   return outline;
@@ -68,11 +87,15 @@ void AddCrossings(const Outline& outline, const Piece& p, const Piece& q,
                   std::vector<double>* bounds) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Edge& a = outline.edges[i];
-    if (a.top >= q.bottom || a.bottom <= q.top) continue;
+    if (a.top >= q.bottom || a.bottom <= q.top || a.left > q.right || a.right < q.left) continue;
     for (std::size_t j = q.first; j < q.last; ++j) {
       const Edge& b = outline.edges[j];
+      // One branch, rarely taken: where they are is hard to predict one by one.
+      if (((a.top < b.bottom) & (b.top < a.bottom) & (a.left <= b.right) & (b.left <= a.right)) ==
+          0) {
+        continue;
+      }
       const double top = std::max(a.top, b.top), bottom = std::min(a.bottom, b.bottom);
-      if (top >= bottom) continue;
       const double gap_at_top = a.At(top) - b.At(top), gap_at_bottom = a.At(bottom) - b.At(bottom);
       if ((gap_at_top < 0) == (gap_at_bottom < 0)) continue;
       bounds->push_back(top + (bottom - top) * gap_at_top / (gap_at_top - gap_at_bottom));
@@ -85,8 +108,13 @@ std::vector<double> StripBounds(const Outline& outline) {
   std::vector<double> bounds;
   bounds.reserve(4 * outline.edges.size());
   // Every corner is the top of an edge or the bottom of its polygon.
-  for (const Edge& edge : outline.edges) bounds.push_back(edge.top);
-  for (const Piece& piece : outline.pieces) bounds.push_back(piece.bottom);
+  for (const Piece& piece : outline.pieces) {
+    for (std::size_t k = 0; k < piece.last - piece.first; ++k) {
+      const double top = outline.edges[piece.first + piece.order[k]].top;
+      if (k == 0 || top != bounds.back()) bounds.push_back(top);
+    }
+    bounds.push_back(piece.bottom);
+  }
   for (std::size_t p = 0; p < outline.pieces.size(); ++p) {
     for (std::size_t q = p + 1; q < outline.pieces.size(); ++q) {
       if (outline.pieces[p].MayMeet(outline.pieces[q])) {
@@ -98,37 +126,44 @@ std::vector<double> StripBounds(const Outline& outline) {
   return bounds;
 }
 
-// The interval of each polygon at height y, by increasing left end.
-void IntervalsAt(double y, const Outline& outline, std::vector<Interval>* intervals) {
-  intervals->clear();
-  for (const Piece& piece : outline.pieces) {
-    if (y < piece.top || y >= piece.bottom) continue;
-    int found = 0;
-    Interval interval{};
-    for (std::size_t e = piece.first; e < piece.last && found < 2; ++e) {
-      const Edge& edge = outline.edges[e];
-      if (y < edge.top || y >= edge.bottom) continue;
-      const double x = edge.At(y);
-      if (++found == 1) {
-        interval = {x, x, e, e};
-      } else if (x < interval.left) {
-        interval.left = x;
-        interval.left_edge = e;
-      } else {
-        interval.right = x;
-        interval.right_edge = e;
-      }
-    }
-    if (found == 2) intervals->push_back(interval);
+// Moves the sweep of a piece down to y, which must not be above where it was.
+void Advance(const std::vector<Edge>& edges, double y, Piece* piece) {
+  const Edge* const mine = edges.data() + piece->first;
+  auto& active = piece->active;
+  const auto at = [](int k) { return static_cast<std::size_t>(k); };
+  int kept = 0;
+  for (int k = 0; k < piece->active_count; ++k) {
+    if (mine[active[at(k)]].bottom > y) active[at(kept++)] = active[at(k)];
   }
-  // A handful: insertion is the fastest order.
-  for (std::size_t i = 1; i < intervals->size(); ++i) {
-    const Interval moved = (*intervals)[i];
-    std::size_t k = i;
-    for (; k > 0 && moved.left < (*intervals)[k - 1].left; --k) {
+  const int count = static_cast<int>(piece->last - piece->first);
+  for (; piece->begun < count; ++piece->begun) {
+    const std::uint8_t edge = piece->order[at(piece->begun)];
+    if (mine[edge].top > y) break;
+    if (mine[edge].bottom <= y) continue;
+    int k = kept++;  // by their place in the polygon
+    for (; k > 0 && edge < active[at(k - 1)]; --k) active[at(k)] = active[at(k - 1)];
+    active[at(k)] = edge;
+  }
+  piece->active_count = kept;
+}
+
+// The interval of each polygon at height y, by increasing left end.
+void IntervalsAt(double y, Outline* outline, std::vector<Interval>* intervals) {
+  intervals->clear();
+  for (Piece& piece : outline->pieces) {
+    if (y < piece.top || y >= piece.bottom) continue;
+    Advance(outline->edges, y, &piece);
+    if (piece.active_count < 2) continue;
+    const std::size_t a = piece.first + piece.active[0], b = piece.first + piece.active[1];
+    const double x_a = outline->edges[a].At(y), x_b = outline->edges[b].At(y);
+    const Interval added = x_b < x_a ? Interval{x_b, x_a, b, a} : Interval{x_a, x_b, a, b};
+    // A handful: insertion is the fastest order.
+    intervals->push_back(added);
+    std::size_t k = intervals->size() - 1;
+    for (; k > 0 && added.left < (*intervals)[k - 1].left; --k) {
       (*intervals)[k] = (*intervals)[k - 1];
     }
-    (*intervals)[k] = moved;
+    (*intervals)[k] = added;
   }
 }
 
@@ -188,7 +223,7 @@ ConvexPolygon HullOf(std::span<const Vec2d> points) {
 }
 
 Silhouette UnionOf(std::span<const ConvexPolygon> polygons) {
-  const Outline outline = OutlineOf(polygons);
+  Outline outline = OutlineOf(polygons);
   const std::vector<double> bounds = StripBounds(outline);
   Silhouette silhouette;
   std::vector<Interval> intervals;
@@ -197,7 +232,7 @@ Silhouette UnionOf(std::span<const ConvexPolygon> polygons) {
     const double top = bounds[k - 1], bottom = bounds[k];
     const double middle = 0.5 * (top + bottom);
     if (!(top < middle && middle < bottom)) continue;
-    IntervalsAt(middle, outline, &intervals);
+    IntervalsAt(middle, &outline, &intervals);
     still_open.clear();
     for (std::size_t i = 0; i < intervals.size();) {
       Interval merged = intervals[i];

@@ -8,6 +8,10 @@
 // Jacobian of the lens,
 //   area in the image = A |det J| / (z^2 cos theta)   [px^2],
 // spread evenly over the way of the animal while the shutter is open.
+//
+// The tables also hold the second moments and the half-widths of the silhouette, in the plane
+// across the line of sight. With L the linear map from there to the image, a covariance C becomes
+// L C L^T and the half-width along u that along L^T u: a box and a shape without an outline.
 
 #ifndef FLOCKLIFT_SIMULATE_RENDER_SPECK_H_
 #define FLOCKLIFT_SIMULATE_RENDER_SPECK_H_
@@ -35,9 +39,25 @@ class SpeckAreas {
   // mean error is below 1 % of the area.
   double Area(const Animal& animal, double time, const Vec3d& to_viewer) const;
 
+  // The silhouette about its centroid: x and y span the plane across the line of sight.
+  struct Shadow {
+    static constexpr int kDirections = 16;
+    Vec3d x, y;                             // unit vectors, body frame
+    double area;                            // [m^2]
+    double xx, xy, yy;                      // second moments [m^2]
+    std::array<double, kDirections> reach;  // how far it extends, to either side, along
+                                            // (cos a, sin a), a = pi k / kDirections [m]
+
+    // The same along any direction, times its length.
+    double Reach(const Vec2d& direction) const;
+  };
+  Shadow Look(const Animal& animal, double time, const Vec3d& to_viewer) const;
+
  private:
   struct Table;
   struct Slot;
+  struct Spot;
+  static Spot Find(const Animal& animal, double time, const Vec3d& to_viewer);
   const Table& TableOf(int ratio) const;
 
   std::unique_ptr<std::vector<Slot>> slots_;
@@ -60,6 +80,16 @@ double SizePx(const Animal& animal, double depth, const Camera& camera);
 std::optional<Speck> ProjectSpeck(const FlyingAnimal& animal, double time, double shutter,
                                   const SpeckAreas& areas, const Camera& camera,
                                   const Rigid3d& cam_from_world);
+
+// What the outline would be measured for: a box about the projected position, and moments.
+struct SpeckBox {
+  double half_width = 0, half_height = 0;  // [px]
+  SilhouetteMoments moments;               // [px^2], about the projected position [px]
+  double depth = 0;                        // [m]
+};
+std::optional<SpeckBox> ProjectSpeckBox(const FlyingAnimal& animal, double time,
+                                        const SpeckAreas& areas, const Camera& camera,
+                                        const Rigid3d& cam_from_world);
 
 }  // namespace flocklift
 

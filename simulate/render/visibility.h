@@ -15,6 +15,9 @@ namespace flocklift {
 // In [0, 1]; 1 when nothing of the animal is in the image, which has the size of the buffer.
 double VisibleShare(const ProjectedBody& body, const DepthBuffer& surfaces);
 
+// The same for an animal too small to have a shape: of the four pixels about `center`.
+double VisibleShare(const Vec2d& center, double depth, const DepthBuffer& surfaces);
+
 }  // namespace flocklift
 
 #endif  // FLOCKLIFT_SIMULATE_RENDER_VISIBILITY_H_

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <thread>
@@ -65,6 +66,49 @@ TEST(SpeckTest, HasTheAreaOfTheSilhouette) {
     EXPECT_LT(error / total, 0.01);
     EXPECT_LT(std::abs(bias) / total, 0.005);
     RecordProperty(is_bent ? "error_bent" : "error", std::to_string(error / total));
+  }
+}
+
+// Half the extent of a silhouette about its centroid.
+Vec2d HalfExtent(const ProjectedBody& body) {
+  const Box box = BoundsOf(body.silhouette);
+  return {std::max(body.center.x - box.left, box.left + box.width - body.center.x),
+          std::max(body.center.y - box.top, box.top + box.height - body.center.y)};
+}
+
+TEST(SpeckTest, HasTheBoxAndTheMomentsOfTheSilhouette) {
+  const SpeckAreas areas;
+  for (const bool is_bent : {false, true}) {
+    const Camera camera = Looking(60, is_bent);
+    const Rigid3d cam_from_world = camera.CamFromWorld(1);
+    double box_error = 0, moment_error = 0;
+    int seen = 0;
+    for (std::uint64_t trial = 0; trial < 1500; ++trial) {
+      const FlyingAnimal flying = Random(trial, camera, kSpeckPx);
+      const auto exact = ProjectBody(flying, 0.3, camera, cam_from_world);
+      const auto speck = ProjectSpeckBox(flying, 0.3, areas, camera, cam_from_world);
+      const auto streak = ProjectSpeck(flying, 0.3, 0, areas, camera, cam_from_world);
+      if (!exact) continue;  // outside the image
+      ASSERT_TRUE(speck && streak);
+      const Vec2d extent = HalfExtent(*exact);
+      EXPECT_NEAR(speck->half_width, extent.x, 0.08) << trial;  // [px]
+      EXPECT_NEAR(speck->half_height, extent.y, 0.08) << trial;
+      EXPECT_NEAR(speck->moments.xx, exact->moments.xx, 0.01) << trial;  // [px^2]
+      EXPECT_NEAR(speck->moments.xy, exact->moments.xy, 0.01) << trial;
+      EXPECT_NEAR(speck->moments.yy, exact->moments.yy, 0.01) << trial;
+      EXPECT_NEAR(speck->moments.area, streak->area, 1e-3 * streak->area) << trial;
+      EXPECT_NEAR(speck->moments.centroid.x, exact->center.x, 1e-9);
+      EXPECT_NEAR(speck->depth, exact->depth, 1e-9);
+      box_error += std::abs(speck->half_width - extent.x) + std::abs(speck->half_height - extent.y);
+      moment_error += std::abs(speck->moments.xx - exact->moments.xx) +
+                      std::abs(speck->moments.yy - exact->moments.yy);
+      ++seen;
+    }
+    EXPECT_GT(seen, 1000);
+    EXPECT_LT(box_error / (2 * seen), 0.01);      // [px]
+    EXPECT_LT(moment_error / (2 * seen), 0.001);  // [px^2]
+    RecordProperty(is_bent ? "box_error_bent" : "box_error",
+                   std::to_string(box_error / (2 * seen)));
   }
 }
 

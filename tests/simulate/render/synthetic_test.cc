@@ -16,6 +16,7 @@
 #include "simulate/core/rng.h"
 #include "simulate/render/flight.h"
 #include "simulate/render/renderer.h"
+#include "simulate/render/speck.h"
 
 namespace flocklift {
 namespace {
@@ -126,6 +127,93 @@ TEST(SyntheticTest, BoxesEncloseWhatTheRendererDraws) {
     EXPECT_LT(d.shape->angle_deg, 180);
   }
   EXPECT_GT(compared, 20);
+}
+
+// Insects that stand in the picture, `size_px` wide.
+Tracks ObserveInsects(double size_px, const Camera& camera, int threads,
+                      const Scenery* scenery = nullptr) {
+  Trajectories truth{.fps = kFps,
+                     .has_velocity = true,
+                     .has_orientation = true,
+                     .has_sd_depth = false,
+                     .trajectories = {}};
+  std::vector<Animal> animals;
+  for (Id id = 1; id <= 200; ++id) {
+    Rng rng(88, static_cast<std::uint64_t>(id));
+    const double depth = rng.Uniform(15, 40);
+    const double u = rng.Uniform(10, 310), v = rng.Uniform(10, 230);
+    const Vec3d in_cam = depth * Vec3d{(u - camera.intrinsics.cx) / camera.intrinsics.fx,
+                                       (v - camera.intrinsics.cy) / camera.intrinsics.fy, 1};
+    const Rotation3d world_from_body =
+        WorldFromLevelBody({rng.Normal(), rng.Normal(), rng.Normal()});
+    truth.trajectories.push_back(
+        {.id = id,
+         .points = {{.frame = 3,
+                     .position = camera.CamFromWorld(3).Inverse() * in_cam,
+                     .velocity = {},
+                     .world_from_body = QuaternionFromRotation(world_from_body)}}});
+    const double wingspan = size_px * depth / camera.intrinsics.fx;
+    animals.push_back({.id = id,
+                       .wingspan = wingspan,
+                       .body_length = wingspan * rng.Uniform(0.4, 1),
+                       .wingbeat_phase = rng.Uniform(0, 6)});
+  }
+  return SynthesizeTracks(truth, animals, camera, kFps, threads, scenery);
+}
+
+// What is seen of an animal goes on without a jump where tables take over from outlines.
+TEST(SyntheticTest, BoxesAndShapesAreContinuousAcrossTheSizeOfASpeck) {
+  const Camera camera = TestCamera();
+  const Tracks below = ObserveInsects(kSpeckPx * (1 - 1e-6), camera, 1);
+  const Tracks above = ObserveInsects(kSpeckPx * (1 + 1e-6), camera, 1);
+  ASSERT_EQ(below.tracklets.size(), above.tracklets.size());
+  ASSERT_GT(below.tracklets.size(), 150U);
+  bool differs = false;
+  for (std::size_t k = 0; k < below.tracklets.size(); ++k) {
+    ASSERT_EQ(below.tracklets[k].id, above.tracklets[k].id);
+    const Detection& a = below.tracklets[k].detections.at(0);
+    const Detection& b = above.tracklets[k].detections.at(0);
+    EXPECT_NEAR(a.box.Center().x, b.box.Center().x, 1e-9);
+    EXPECT_NEAR(a.box.Center().y, b.box.Center().y, 1e-9);
+    EXPECT_NEAR(a.box.width, b.box.width, 0.16);  // [px]
+    EXPECT_NEAR(a.box.height, b.box.height, 0.16);
+    EXPECT_NEAR(a.shape->major, b.shape->major, 0.06);
+    EXPECT_NEAR(a.shape->area, b.shape->area, 0.04);
+    differs = differs || a.box.width != b.box.width;
+  }
+  EXPECT_TRUE(differs);  // else both took the same way
+}
+
+TEST(SyntheticTest, SpecksAreTheSameAtAnyThreadCountAndHideBehindObstacles) {
+  const Camera camera = TestCamera();
+  const Tracks one = ObserveInsects(1, camera, 1), three = ObserveInsects(1, camera, 3);
+  ASSERT_EQ(one.tracklets.size(), three.tracklets.size());
+  for (std::size_t k = 0; k < one.tracklets.size(); ++k) {
+    const Detection &a = one.tracklets[k].detections.at(0),
+                    &b = three.tracklets[k].detections.at(0);
+    EXPECT_EQ(a.box.left, b.box.left);
+    EXPECT_EQ(a.box.height, b.box.height);
+    EXPECT_EQ(a.shape->angle_deg, b.shape->angle_deg);
+    EXPECT_EQ(a.visibility, 1);
+  }
+  // A wall 10 m away before the left half of the picture.
+  const Rigid3d world_from_cam = camera.CamFromWorld(3).Inverse();
+  TriangleMesh wall{.vertices = {}, .triangles = {{0, 1, 2}, {0, 2, 3}}};
+  for (const Vec3d& corner :
+       {Vec3d{-20, -20, 10}, Vec3d{0, -20, 10}, Vec3d{0, 20, 10}, Vec3d{-20, 20, 10}}) {
+    wall.vertices.push_back(world_from_cam * corner);
+  }
+  Scenery scenery;
+  scenery.AddObstacle(wall);
+  int hidden = 0;
+  for (const Tracklet& tracklet : ObserveInsects(1, camera, 1, &scenery).tracklets) {
+    const Detection& seen = tracklet.detections.at(0);
+    const double from_edge = seen.box.Center().x - camera.intrinsics.cx;
+    if (std::abs(from_edge) < 2) continue;
+    EXPECT_EQ(seen.visibility, from_edge < 0 ? 0 : 1);
+    hidden += seen.visibility == 0;
+  }
+  EXPECT_GT(hidden, 50);
 }
 
 TEST(SyntheticTest, AnAnimalKeepsItsIdAndThreadsDoNotMatter) {
