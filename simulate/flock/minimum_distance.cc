@@ -204,11 +204,40 @@ Vec3<T> MinimumDistance<T>::Push(std::size_t self, bool* touched) const {
   return push;
 }
 
+// Distances are those of the grid's copies, so that positions may be moved meanwhile.
+template <typename T>
+std::int64_t MinimumDistance<T>::EnforceInGrid(std::span<const Crowd<T>> crowds, ThreadPool* pool) {
+  grid_.FindPairs(pool);
+  std::size_t total = 0;
+  for (const Crowd<T>& crowd : crowds) total += crowd.size;
+  touched_.assign(total, 0);
+  std::int64_t moved = 0;
+  const auto move = [&](std::uint32_t animal, const Vec3<T>& push) {
+    moved += touched_[animal] == 0 ? 1 : 0;
+    touched_[animal] = 1;
+    std::size_t crowd = 0, at = animal;
+    while (at >= crowds[crowd].size) at -= crowds[crowd++].size;
+    crowds[crowd].x[at] += push.x;
+    crowds[crowd].y[at] += push.y;
+    crowds[crowd].z[at] += push.z;
+  };
+  for (const auto& pairs : grid_.pairs()) {
+    for (const auto& pair : pairs) {
+      const T length = std::sqrt(pair.squared), half = T(0.5) * (pair.distance - length);
+      const Vec3<T> push = length > 0 ? pair.way * (half / length) : Vec3<T>{half, T(0), T(0)};
+      move(grid_.Animal(pair.first), -push);
+      move(grid_.Animal(pair.second), push);
+    }
+  }
+  return moved;
+}
+
 template <typename T>
 std::int64_t MinimumDistance<T>::Enforce(std::span<const Crowd<T>> crowds, ThreadPool* pool) {
-  Gather(crowds, pool);
+  std::size_t total = 0;
   T most = 0;
   for (const Crowd<T>& crowd : crowds) {
+    total += crowd.size;
     if (crowd.body == nullptr) most = std::max(most, crowd.room);
   }
   for (const Crowd<T>& crowd : crowds) {
@@ -216,7 +245,9 @@ std::int64_t MinimumDistance<T>::Enforce(std::span<const Crowd<T>> crowds, Threa
       most = std::max(most, crowd.room + crowd.body[k]);
     }
   }
-  if (!(most > 0) || places_.size() < 2) return 0;
+  if (!(most > 0) || total < 2) return 0;
+  if (grid_.Sort(crowds, 2 * most, pool)) return EnforceInGrid(crowds, pool);
+  Gather(crowds, pool);
   const T per_cell = T(1) / static_cast<T>(2 * kCellPerReach * 2 * static_cast<double>(most));
   NumberCells(crowds, per_cell, T(0), pool);
   Enter(pool);

@@ -9,34 +9,26 @@
 // result does not depend on threads. Animals in the very same place part along x. One pass, as
 // published; in a crush some are still too near afterwards.
 //
-// Nearly all animals have nobody near. A hashed table with a byte for every cell of a lattice tells
-// most of them from the rest: cells are wider than twice the largest d_ij, so an animal's own cell
-// and the nearer neighbours, eight in all, hold everybody who may be too near. Only those with
-// company go into a second, exact table. Linear in animals, whatever the extent of the scene, and
-// fastest when neighbours in space are neighbours in memory. One room far larger than the others
-// makes it slow.
+// A flock that fills its bounding box more or less goes into a grid (simulate/flock/near_grid.h).
+// In one that is scattered, nearly all animals have nobody near. A hashed table with a byte for
+// every cell of a lattice tells most of them from the rest: cells are wider than twice the largest
+// d_ij, so an animal's own cell and the nearer neighbours, eight in all, hold everybody who may be
+// too near. Only those with company go into a second, exact table. Linear in animals, whatever the
+// extent of the scene, and fastest when neighbours in space are neighbours in memory. One room far
+// larger than the others makes it slow.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_MINIMUM_DISTANCE_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_MINIMUM_DISTANCE_H_
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/vec3.h"
+#include "simulate/flock/near_grid.h"
 
 namespace flocklift {
-
-// The animals of one species: where they are, and how much room each keeps.
-template <typename T>
-struct Crowd {
-  std::size_t size = 0;
-  T *x = nullptr, *y = nullptr, *z = nullptr;  // [m], moved
-  T room = 0;                                  // half of d_min [m]
-  const T* body = nullptr;                     // radii, each added to `room`; null: 0 [m]
-};
 
 template <typename T>
 class MinimumDistance {
@@ -49,6 +41,7 @@ class MinimumDistance {
     T x, y, z, room;
   };
 
+  std::int64_t EnforceInGrid(std::span<const Crowd<T>> crowds, ThreadPool* pool);
   void Gather(std::span<const Crowd<T>> crowds, ThreadPool* pool);
   void NumberCells(std::span<const Crowd<T>> crowds, T per_cell, T shift, ThreadPool* pool);
   void Enter(ThreadPool* pool);
@@ -57,6 +50,7 @@ class MinimumDistance {
   void Chain(T per_cell);
   Vec3<T> Push(std::size_t self, bool* touched) const;
 
+  NearGrid<T> grid_;
   std::vector<Place> places_;                        // of all animals
   std::vector<std::uint32_t> cell_;                  // of each animal, before it is hashed
   std::vector<std::uint8_t> entries_;                // of the first table: who is in each cell
@@ -65,7 +59,7 @@ class MinimumDistance {
   std::vector<Place> close_;                         // of crowded_
   std::vector<std::int32_t> head_, next_;            // chains of crowded_ by bucket; -1: the end
   std::vector<Vec3<T>> push_;                        // of crowded_ [m]
-  std::vector<std::uint8_t> touched_;                // of crowded_
+  std::vector<std::uint8_t> touched_;                // of crowded_, or of all animals in the grid
 };
 
 extern template class MinimumDistance<float>;

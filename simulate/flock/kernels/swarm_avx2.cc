@@ -19,4 +19,9 @@ void CellKernelAvx2(const CellJob& job, std::uint32_t first, std::uint32_t last)
   CellNumbers<xsimd::batch<float, Avx2>>(job, first, last);
 }
 
+std::uint32_t NearKernelAvx2(const NearJob& job, std::uint32_t first, std::uint32_t last,
+                             std::uint32_t* found) {
+  return FindNear<xsimd::batch<float, Avx2>>(job, first, last, found);
+}
+
 }  // namespace flocklift

@@ -19,4 +19,9 @@ void CellKernelAvx512(const CellJob& job, std::uint32_t first, std::uint32_t las
   CellNumbers<xsimd::batch<float, Avx512Vl>>(job, first, last);
 }
 
+std::uint32_t NearKernelAvx512(const NearJob& job, std::uint32_t first, std::uint32_t last,
+                               std::uint32_t* found) {
+  return FindNear<xsimd::batch<float, Avx512Vl>>(job, first, last, found);
+}
+
 }  // namespace flocklift

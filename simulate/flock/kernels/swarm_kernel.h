@@ -57,11 +57,26 @@ struct CellJob {
 // Does the points first .. last - 1, both multiples of 8.
 using CellKernel = void (*)(const CellJob& job, std::uint32_t first, std::uint32_t last);
 
+// Animals sorted by the cells of a grid (simulate/flock/near_grid.h): which of them are nearer to
+// somebody behind them than the sum of their rooms. Each is tested against the rest of its own cell
+// and the next one, and, for each of four rows, against three cells around its own shifted by that.
+struct NearJob {
+  const float *x, *y, *z, *room;  // [m], sorted, 16 more may be read
+  const std::uint32_t* cell;      // of each
+  const std::uint32_t* start;     // of each cell's run; the next entry is its end
+  std::uint32_t row[4];
+};
+// Writes those among first .. last - 1 to `found`, in order, and returns how many; `found` has room
+// for all.
+using NearKernel = std::uint32_t (*)(const NearJob& job, std::uint32_t first, std::uint32_t last,
+                                     std::uint32_t* found);
+
 struct SwarmKernelVariant {
   const char* name;
   bool (*supported)();  // by this machine
   SwarmKernel kernel;
   CellKernel cells;
+  NearKernel near;
 };
 
 // From the most portable to the fastest.
@@ -70,10 +85,16 @@ extern const SwarmKernelVariant kSwarmKernels[kSwarmKernelVariants];
 
 void SwarmKernelSse2(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
 void CellKernelSse2(const CellJob& job, std::uint32_t first, std::uint32_t last);
+std::uint32_t NearKernelSse2(const NearJob& job, std::uint32_t first, std::uint32_t last,
+                             std::uint32_t* found);
 void SwarmKernelAvx2(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
 void CellKernelAvx2(const CellJob& job, std::uint32_t first, std::uint32_t last);
+std::uint32_t NearKernelAvx2(const NearJob& job, std::uint32_t first, std::uint32_t last,
+                             std::uint32_t* found);
 void SwarmKernelAvx512(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
 void CellKernelAvx512(const CellJob& job, std::uint32_t first, std::uint32_t last);
+std::uint32_t NearKernelAvx512(const NearJob& job, std::uint32_t first, std::uint32_t last,
+                               std::uint32_t* found);
 
 // The same, one animal at a time.
 void SwarmKernelScalar(const SwarmJob& job, std::uint32_t first, std::uint32_t last);

@@ -128,6 +128,46 @@ void CellNumbers(const CellJob& job, std::uint32_t first, std::uint32_t last) {
   }
 }
 
+template <typename Pack>
+std::uint32_t FindNear(const NearJob& job, std::uint32_t first, std::uint32_t last,
+                       std::uint32_t* found) {
+  constexpr auto kLanes = static_cast<std::uint32_t>(Pack::size);
+  alignas(64) float numbers[kLanes];
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane) numbers[lane] = static_cast<float>(lane);
+  const Pack lanes = Pack::load_aligned(numbers);
+  std::uint32_t count = 0;
+  for (std::uint32_t k = first; k < last; ++k) {
+    const Pack x(job.x[k]), y(job.y[k]), z(job.z[k]), room(job.room[k]);
+    const auto near = [&](std::uint32_t begin, std::uint32_t end) {
+      const Pack dx = Pack::load_unaligned(job.x + begin) - x,
+                 dy = Pack::load_unaligned(job.y + begin) - y,
+                 dz = Pack::load_unaligned(job.z + begin) - z;
+      const Pack squared = dx * dx + dy * dy + dz * dz;
+      const Pack distance = room + Pack::load_unaligned(job.room + begin);
+      return (squared < distance * distance) & (lanes < Pack(static_cast<float>(end - begin)));
+    };
+    const std::uint32_t* const start = job.start + job.cell[k];
+    std::uint32_t begin[5] = {k + 1}, end[5] = {start[2]};
+    std::uint32_t longest = end[0] - begin[0];
+    auto any = near(begin[0], end[0]);
+    for (int row = 0; row < 4; ++row) {  // without branches: most runs are short, many empty
+      const std::uint32_t a = *(start + job.row[row] - 1), b = *(start + job.row[row] + 2);
+      begin[row + 1] = a;
+      end[row + 1] = b;
+      longest = longest > b - a ? longest : b - a;
+      any = any | near(a, b);
+    }
+    for (std::uint32_t done = kLanes; done < longest; done += kLanes) {
+      for (int run = 0; run < 5; ++run) {
+        if (end[run] - begin[run] > done) any = any | near(begin[run] + done, end[run]);
+      }
+    }
+    found[count] = k;
+    count += xsimd::any(any) ? 1 : 0;
+  }
+  return count;
+}
+
 }  // namespace
 }  // namespace flocklift
 

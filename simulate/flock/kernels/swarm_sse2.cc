@@ -53,4 +53,9 @@ void CellKernelSse2(const CellJob& job, std::uint32_t first, std::uint32_t last)
   CellNumbers<xsimd::batch<float, xsimd::sse2>>(job, first, last);
 }
 
+std::uint32_t NearKernelSse2(const NearJob& job, std::uint32_t first, std::uint32_t last,
+                             std::uint32_t* found) {
+  return FindNear<xsimd::batch<float, xsimd::sse2>>(job, first, last, found);
+}
+
 }  // namespace flocklift
