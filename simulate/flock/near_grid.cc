@@ -16,6 +16,7 @@ namespace {
 constexpr std::int64_t kGrain = 2048;       // animals a chunk of work
 constexpr double kCellPerReach = 1.01;      // round-off
 constexpr double kCellsPerAnimal = 2;       // at most
+constexpr double kRimSlack = 0.01;          // cells; round-off
 constexpr double kWide = 2;                 // reaches; cells up to here never hold too many
 constexpr std::uint64_t kMostCompany = 12;  // animals in the cell of an animal, on average
 constexpr std::size_t kPadding = 16;
@@ -102,6 +103,9 @@ bool NearGrid<T>::ChooseCells(std::span<const Crowd<T>> crowds, T reach, ThreadP
   const auto cells = [&edge](double length) { return std::floor(length / edge) + 1; };
   while (cells(x) * cells(y) * cells(z) > most_cells) edge *= 1.05;
   wide_ = edge > kWide * least;
+  // In wide cells few are so far up that their company may be in the rows that follow; where many
+  // are, asking takes longer than looking.
+  rim_ = static_cast<T>(wide_ ? 1 - static_cast<double>(reach) / edge - kRimSlack : -1);
   low_ = all.low;
   per_cell_ = static_cast<T>(1 / edge);
   nx_ = static_cast<int>(cells(x));
@@ -119,15 +123,19 @@ void NearGrid<T>::NumberCells(std::span<const Crowd<T>> crowds, ThreadPool* pool
   const std::uint32_t corner = layer + row + 1;
   const T x1 = static_cast<T>(nx_ - 1), y1 = static_cast<T>(ny_ - 1), z1 = static_cast<T>(nz_ - 1);
   for (const Crowd<T>& crowd : crowds) {
-    pool->For(0, static_cast<std::int64_t>(crowd.size), kGrain,
-              [&, low = low_, per_cell = per_cell_](std::int64_t first, std::int64_t last) {
-                const T *const x = crowd.x, *const y = crowd.y, *const z = crowd.z;
-                for (std::int64_t k = first; k < last; ++k) {
-                  to[k] = corner + Along((x[k] - low.x) * per_cell, x1) +
-                          Along((y[k] - low.y) * per_cell, y1) * row +
-                          Along((z[k] - low.z) * per_cell, z1) * layer;
-                }
-              });
+    pool->For(
+        0, static_cast<std::int64_t>(crowd.size), kGrain,
+        [&, low = low_, per_cell = per_cell_, rim = rim_](std::int64_t first, std::int64_t last) {
+          const T *const x = crowd.x, *const y = crowd.y, *const z = crowd.z;
+          for (std::int64_t k = first; k < last; ++k) {
+            const T v = (y[k] - low.y) * per_cell, w = (z[k] - low.z) * per_cell;
+            const std::uint32_t b = Along(v, y1), c = Along(w, z1);
+            const bool at_rim = v - static_cast<T>(static_cast<std::int32_t>(b)) > rim ||
+                                w - static_cast<T>(static_cast<std::int32_t>(c)) > rim;
+            to[k] = corner + Along((x[k] - low.x) * per_cell, x1) + b * row + c * layer +
+                    (at_rim ? kNearAtRim : 0);
+          }
+        });
     to += crowd.size;
   }
 }
@@ -140,7 +148,7 @@ bool NearGrid<T>::Count() {
   rank_.resize(n_);
   std::uint64_t company = 0;
   for (std::size_t k = 0; k < n_; ++k) {
-    const std::uint32_t before = start_[cell_[k]]++;
+    const std::uint32_t before = start_[cell_[k] & ~kNearAtRim]++;
     rank_[k] = before;
     company += before;
   }
@@ -170,7 +178,8 @@ bool NearGrid<T>::Sort(std::span<const Crowd<T>> crowds, T reach, ThreadPool* po
               [&](std::int64_t first, std::int64_t last) {
                 for (std::int64_t k = first; k < last; ++k) {
                   const std::size_t animal = before + static_cast<std::size_t>(k);
-                  const std::uint32_t cell = cell_[animal], to = start_[cell] + rank_[animal];
+                  const std::uint32_t cell = cell_[animal],
+                                      to = start_[cell & ~kNearAtRim] + rank_[animal];
                   x_[to] = crowd.x[k];
                   y_[to] = crowd.y[k];
                   z_[to] = crowd.z[k];
@@ -194,7 +203,7 @@ void NearGrid<T>::AppendPairs(std::uint32_t first, std::vector<Pair>* pairs) con
       if (squared < distance * distance) pairs->push_back({first, j, way, squared, distance});
     }
   };
-  const std::uint32_t cell = place_[first];
+  const std::uint32_t cell = place_[first] & ~kNearAtRim;
   look_through(first + 1, start_[cell + 2]);
   for (const std::uint32_t offset : Rows(nx_, ny_).offset) {
     look_through(start_[cell + offset - 1], start_[cell + offset + 2]);

@@ -61,8 +61,9 @@ class NearGrid {
   std::size_t n_ = 0;
   Vec3<T> low_;
   T per_cell_ = 0;
-  bool wide_ = false;                            // cells far wider than asked for
-  int nx_ = 0, ny_ = 0, nz_ = 0;                 // cells without the empty ones around
+  T rim_ = 0;                     // part of a cell beyond which an animal is at its upper rim
+  bool wide_ = false;             // cells far wider than asked for
+  int nx_ = 0, ny_ = 0, nz_ = 0;  // cells without the empty ones around
   std::vector<std::uint32_t> cell_, rank_;       // by animal; rank within the cell
   std::vector<std::uint32_t> start_;             // of each cell's run; the next entry is its end
   std::vector<T> x_, y_, z_, room_;              // sorted, padded

@@ -59,7 +59,9 @@ using CellKernel = void (*)(const CellJob& job, std::uint32_t first, std::uint32
 
 // Animals sorted by the cells of a grid (simulate/flock/near_grid.h): which of them are nearer to
 // somebody behind them than the sum of their rooms. Each is tested against the rest of its own cell
-// and the next one, and, for each of four rows, against three cells around its own shifted by that.
+// and the next one, and, if it is at the rim of its cell, in each of four rows against three cells
+// around its own shifted by that.
+inline constexpr std::uint32_t kNearAtRim = 0x80000000U;  // added to the number of the cell
 struct NearJob {
   const float *x, *y, *z, *room;  // [m], sorted, 16 more may be read
   const std::uint32_t* cell;      // of each

@@ -146,20 +146,23 @@ std::uint32_t FindNear(const NearJob& job, std::uint32_t first, std::uint32_t la
       const Pack distance = room + Pack::load_unaligned(job.room + begin);
       return (squared < distance * distance) & (lanes < Pack(static_cast<float>(end - begin)));
     };
-    const std::uint32_t* const start = job.start + job.cell[k];
-    std::uint32_t begin[5] = {k + 1}, end[5] = {start[2]};
-    std::uint32_t longest = end[0] - begin[0];
-    auto any = near(begin[0], end[0]);
-    for (int row = 0; row < 4; ++row) {  // without branches: most runs are short, many empty
-      const std::uint32_t a = *(start + job.row[row] - 1), b = *(start + job.row[row] + 2);
-      begin[row + 1] = a;
-      end[row + 1] = b;
-      longest = longest > b - a ? longest : b - a;
-      any = any | near(a, b);
-    }
-    for (std::uint32_t done = kLanes; done < longest; done += kLanes) {
-      for (int run = 0; run < 5; ++run) {
-        if (end[run] - begin[run] > done) any = any | near(begin[run] + done, end[run]);
+    const bool at_rim = (job.cell[k] & kNearAtRim) != 0;
+    const std::uint32_t* const start = job.start + (job.cell[k] & ~kNearAtRim);
+    auto any = near(k + 1, start[2]);
+    for (std::uint32_t a = k + 1 + kLanes; a < start[2]; a += kLanes) any = any | near(a, start[2]);
+    if (at_rim) {
+      std::uint32_t begin[4], end[4], longest = 0;
+      for (int row = 0; row < 4; ++row) {  // without branches: most runs are short, many empty
+        begin[row] = *(start + job.row[row] - 1);
+        end[row] = *(start + job.row[row] + 2);
+        const std::uint32_t length = end[row] - begin[row];
+        longest = longest > length ? longest : length;
+        any = any | near(begin[row], end[row]);
+      }
+      for (std::uint32_t done = kLanes; done < longest; done += kLanes) {
+        for (int row = 0; row < 4; ++row) {
+          if (end[row] - begin[row] > done) any = any | near(begin[row] + done, end[row]);
+        }
       }
     }
     found[count] = k;

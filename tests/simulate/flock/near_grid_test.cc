@@ -60,10 +60,11 @@ void ExpectEveryPairOnce(const NamedFlock& flock, T room) {
 
 TEST(NearGrid, FindsEveryPairOnce) {
   for (const NamedFlock& flock :
-       {RandomFlock("sparse", 2000, {9, 8, 7}, 1), RandomFlock("flat", 2000, {20, 0, 9}, 2),
-        RandomFlock("a line", 2000, {0, 90, 0}, 3), RandomFlock("crush", 700, {1, 1, 1}, 4),
-        RandomFlock("one place", 40, {0, 0, 0}, 5)}) {
-    for (const double room : {0.05, 0.3}) {
+       {RandomFlock("sparse", 2000, {9, 8, 7}, 1),
+        RandomFlock("few in much space", 3000, {30, 20, 9}, 8),
+        RandomFlock("flat", 2000, {20, 0, 9}, 2), RandomFlock("a line", 2000, {0, 90, 0}, 3),
+        RandomFlock("crush", 700, {1, 1, 1}, 4), RandomFlock("one place", 40, {0, 0, 0}, 5)}) {
+    for (const double room : {0.05, 0.2, 0.3}) {
       ExpectEveryPairOnce<double>(flock, room);
       ExpectEveryPairOnce<float>(flock, static_cast<float>(room));
     }
@@ -96,8 +97,10 @@ TEST(NearKernel, EveryVariantFindsTheSameAnimals) {
     cell.insert(cell.end(), runs[c], c + 1);
   }
   start.resize(20, 80);
+  std::vector<std::uint32_t> marked = cell;
+  for (std::size_t k = 0; k < 80; k += 3) marked[k] |= kNearAtRim;
   const NearJob job{bodies.x.data(), bodies.y.data(), bodies.z.data(), room.data(),
-                    cell.data(),     start.data(),    {9, 10, 11, 12}};
+                    marked.data(),   start.data(),    {9, 10, 11, 12}};
   std::vector<std::uint32_t> expected;
   for (std::uint32_t k = 0; k < 80; ++k) {
     bool near = false;
