@@ -7,6 +7,7 @@
 #include <cmath>
 #include <type_traits>
 #include <vector>
+#include <xsimd/xsimd.hpp>
 
 #include "simulate/core/check.h"
 #include "simulate/fields/curl_noise.h"
@@ -64,7 +65,8 @@ class ShapeMotion final : public Motion<T> {
         forces_(context, herd.size()),
         noise_seed_(StreamOf(Stream::kNoise, context.world->seed, herd.first_agent).Bits()),
         range_(StartRange(context.world->time)) {
-    for (std::vector<T>* column : {&curl_x_, &curl_y_, &curl_z_}) {
+    for (std::vector<T>* column :
+         {&curl_x_, &curl_y_, &curl_z_, &target_x_, &target_y_, &target_z_}) {
       column->resize(herd.size() + Bodies<T>::kPadding);
     }
   }
@@ -148,25 +150,85 @@ class ShapeMotion final : public Motion<T> {
     }
   }
 
+  // The numbers of the move at one step, for any scalar or pack of them.
+  template <typename U>
+  struct MoveNumbers {
+    U dt, own, shape;
+    Vec3<U> carried;
+    SpeedLimit::Params<U> limit;
+    Drag::Params<U> drag;
+    ShapeDistance::Params<U> pull;
+  };
+  template <typename U>
+  MoveNumbers<U> NumbersOf(double dt, const Vec3<T>& carried) const {
+    const auto number = [](double value) { return U(static_cast<T>(value)); };
+    const Vec3<U> wind{U(carried.x), U(carried.y), U(carried.z)};
+    return {number(dt),
+            number(p_.alpha),
+            number(1 - p_.alpha),
+            wind,
+            {number(0), number(p_.s_max), number(0)},
+            {number(p_.drag), wind},
+            {number(p_.w_dis), number(p_.dis_range), {}}};
+  }
+
+  // The acceleration, from that of the neighbours on, and the new velocity.
+  template <typename U>
+  static void Drive(MoveNumbers<U> n, bool flat, const Vec3<U>& curl, const Vec3<U>& target,
+                    const Vec3<U>& x, Vec3<U>* v, Vec3<U>* a) {
+    n.pull.target = target;
+    *a = *a + n.own * curl + n.shape * ShapeDistance::At(n.pull, x, *v) + Drag::At(n.drag, x, *v);
+    if (flat) a->z = U(T(0));
+    *v = n.carried + SpeedLimit::Limit(n.limit, *v + n.dt * *a - n.carried);
+  }
+
   void Move(const Surroundings& around, const std::vector<Vec3d>& target, const Vec3<T>& carried,
             std::size_t first, std::size_t last, Herd<T>* herd) {
-    const T dt = static_cast<T>(around.dt()), own = static_cast<T>(p_.alpha);
-    const T shape = static_cast<T>(1 - p_.alpha);
     FillNoise(first, last, herd->now);
-    const SpeedLimit::Params<T> limit{T(0), static_cast<T>(p_.s_max), T(0)};
-    const Drag::Params<T> drag{static_cast<T>(p_.drag), carried};
-    ShapeDistance::Params<T> pull{static_cast<T>(p_.w_dis), static_cast<T>(p_.dis_range), {}};
     Bodies<T>& s = herd->now;
     for (std::size_t k = first; k < last; ++k) {
-      Vec3<T> x = s.Position(k), v = s.Velocity(k);
-      pull.target = Cast<T>(target[s.agent[k]]);
-      Vec3<T> a = herd->Acceleration(k) + own * Vec3<T>{curl_x_[k], curl_y_[k], curl_z_[k]} +
-                  shape * ShapeDistance::At(pull, x, v) + Drag::At(drag, x, v);
-      a = Flattened(around.flat(), a);
-      herd->SetAcceleration(k, a);
-      v = carried + SpeedLimit::Limit(limit, v + dt * a - carried);
+      const Vec3<T> own = Cast<T>(target[s.agent[k]]);
+      target_x_[k] = own.x;
+      target_y_[k] = own.y;
+      target_z_[k] = own.z;
+    }
+    const auto drive = [&]<typename U>(const MoveNumbers<U>& n, std::size_t k, const auto& load,
+                                       const auto& store) {
+      const auto vector = [&](const std::vector<T>& a, const std::vector<T>& b,
+                              const std::vector<T>& c) -> Vec3<U> {
+        return {load(a.data() + k), load(b.data() + k), load(c.data() + k)};
+      };
+      const Vec3<U> x = vector(s.x, s.y, s.z);
+      Vec3<U> v = vector(s.vx, s.vy, s.vz), a = vector(herd->ax, herd->ay, herd->az);
+      Drive(n, around.flat(), vector(curl_x_, curl_y_, curl_z_),
+            vector(target_x_, target_y_, target_z_), x, &v, &a);
+      store(a.x, herd->ax.data() + k);
+      store(a.y, herd->ay.data() + k);
+      store(a.z, herd->az.data() + k);
+      store(v.x, s.vx.data() + k);
+      store(v.y, s.vy.data() + k);
+      store(v.z, s.vz.data() + k);
+    };
+    std::size_t k = first;
+    if constexpr (std::is_same_v<T, float>) {  // four at a time, rounded as one at a time
+      using Pack = xsimd::batch<float, xsimd::sse2>;
+      const auto n = NumbersOf<Pack>(around.dt(), carried);
+      for (; k + Pack::size <= last; k += Pack::size) {
+        drive(
+            n, k, [](const float* from) { return Pack::load_unaligned(from); },
+            [](const Pack& value, float* to) { value.store_unaligned(to); });
+      }
+    }
+    const auto n = NumbersOf<T>(around.dt(), carried);
+    for (; k < last; ++k) {
+      drive(
+          n, k, [](const T* from) { return *from; }, [](const T& value, T* to) { *to = value; });
+    }
+    for (k = first; k < last; ++k) {
+      const Vec3<T> x = s.Position(k);
+      Vec3<T> v = s.Velocity(k);
       if (!obstacles_.empty()) v = Cast<T>(obstacles_.Turn(ToDouble(x), ToDouble(v)));
-      s.Set(k, x + dt * v, v);
+      s.Set(k, x + n.dt * v, v);
     }
   }
 
@@ -176,8 +238,9 @@ class ShapeMotion final : public Motion<T> {
   ObstacleField obstacles_;
   ForcePasses<T> forces_;
   std::uint32_t noise_seed_;
-  double range_;                             // of the zones [m]
-  std::vector<T> curl_x_, curl_y_, curl_z_;  // curl noise, in the order of the herd
+  double range_;                                   // of the zones [m]
+  std::vector<T> curl_x_, curl_y_, curl_z_;        // curl noise, in the order of the herd
+  std::vector<T> target_x_, target_y_, target_z_;  // samples, likewise [m]
 };
 
 }  // namespace
