@@ -34,6 +34,30 @@ void SumOne(const Rules& rules, const PairTask<T>& task, std::size_t k, const Vi
   task.neighbours[k] = sum.Neighbours();
 }
 
+// The same with the eight sums of the kernels that go animal by animal (pair_kernel_inl.h):
+// neighbours are those within `reach`, and the n-th is added to sum n % 8.
+template <typename T, typename Rules, typename Visit>
+void SumOneOfEight(const Rules& rules, double reach, const PairTask<T>& task, std::size_t k,
+                   const Visit& visit) {
+  const Bodies<T>& s = task.bodies;
+  const Vec3<T> x = s.Position(k), v = s.Velocity(k);
+  const T margin = static_cast<T>(kReachMargin * reach);
+  typename Rules::Sums eight[8];
+  std::size_t count = 0;
+  visit([&](std::uint32_t j) {
+    const Vec3<T> dx = s.Position(j) - x;
+    if (Dot(dx, dx) <= margin * margin) eight[count++ % 8] += rules.Pair(dx, s.Velocity(j) - v);
+  });
+  for (std::size_t half = 4; half > 0; half /= 2) {
+    for (std::size_t n = 0; n < half; ++n) eight[n] += eight[n + half];
+  }
+  const Vec3<T> acceleration = rules.Finish(eight[0]);
+  task.ax[k] = acceleration.x;
+  task.ay[k] = acceleration.y;
+  task.az[k] = acceleration.z;
+  task.neighbours[k] = eight[0].Neighbours();
+}
+
 template <typename T, typename Rules>
 void SumLists(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
   pool->For(0, static_cast<std::int64_t>(task.bodies.size()), kPairGrain,
@@ -48,7 +72,7 @@ void SumLists(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
 }
 
 template <typename T, typename Rules>
-void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
+void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool, double reach = 0) {
   if (task.nearest != nullptr) return SumLists(rules, task, pool);
   const auto g = task.grid.view();
   pool->For(0, g.RowCount(), kRows, [&](std::int64_t first_row, std::int64_t last_row) {
@@ -58,13 +82,18 @@ void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
           task.sample == nullptr ? RowSample{1, 0} : (*task.sample)[static_cast<std::size_t>(row)];
       for (std::uint32_t k = g.start[g.Cell(1, b, c)]; k < g.start[g.Cell(g.nx, b, c) + 1]; ++k) {
         const int a = g.CellX(task.bodies.x[k]);
-        SumOne(rules, task, k, [&](const auto& neighbour) {
+        const auto visit = [&](const auto& neighbour) {
           CellGrid<T>::ForEachRun(g, a, a, b, c, [&](std::uint32_t first, std::uint32_t last) {
             for (std::uint32_t j = first; j < last; ++j) {
               if (j != k && j % sample.stride == sample.phase) neighbour(j);
             }
           });
-        });
+        };
+        if constexpr (requires { Rules::kByAnimal; }) {
+          SumOneOfEight(rules, reach, task, k, visit);
+        } else {
+          SumOne(rules, task, k, visit);
+        }
       }
     }
   });
@@ -195,7 +224,7 @@ void SumPairs(const ShapePairNumbers& n, const KernelVariant* kernel, const Pair
       return SumWith(kernel->shape, job, task.bodies.size(), pool);
     }
   }
-  SumScalar(MakeShapePairs<T>(n), task, pool);
+  SumScalar(MakeShapePairs<T>(n), task, pool, Reach(n));
 }
 
 template <typename T>

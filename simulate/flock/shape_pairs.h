@@ -41,6 +41,10 @@ inline double Reach(const ShapePairNumbers& n) { return std::max({n.r_rep, n.r_a
 
 template <typename T>
 struct ShapePairs {
+  // On a surface few of a tile's candidates are neighbours: kernels sum animal by animal.
+  static constexpr bool kByAnimal = true;
+  static constexpr int kTerms = 4;  // sums
+
   ZonePairs<T, HardEdge> zones;
   ShapeForce::Params<T, HardEdge> spread;
 
@@ -63,7 +67,18 @@ struct ShapePairs {
       spread += shares.spread;
       return *this;
     }
+    Sums& operator+=(const Sums& b) {
+      zones += b.zones;
+      spread += b.spread;
+      return *this;
+    }
     T Neighbours() const { return zones.Neighbours(); }
+    // Calls fn(&sum) for each term, in the order of Each.
+    template <typename Function>
+    void All(const Function& fn) {
+      zones.All(fn);
+      fn(&spread);
+    }
   };
 
   const ShapePairs& For(const Vec3<T>& /*v*/) const { return *this; }

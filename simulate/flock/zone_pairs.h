@@ -40,7 +40,20 @@ struct ZonePairs {
       attraction += shares.attraction;
       return *this;
     }
+    Sums& operator+=(const Sums& b) {
+      repulsion += b.repulsion;
+      alignment += b.alignment;
+      attraction += b.attraction;
+      return *this;
+    }
     T Neighbours() const { return repulsion.weight + alignment.weight + attraction.weight; }
+    // Calls fn(&sum) for each zone, in the order of Each.
+    template <typename Function>
+    void All(const Function& fn) {
+      fn(&repulsion);
+      fn(&alignment);
+      fn(&attraction);
+    }
   };
 
   const ZonePairs& For(const Vec3<T>& /*v*/) const { return *this; }

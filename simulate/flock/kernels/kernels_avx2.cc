@@ -44,6 +44,17 @@ std::uint32_t AppendSetBits(std::uint64_t mask, std::uint32_t base, std::uint32_
   return static_cast<std::uint32_t>(__builtin_popcountll(mask));
 }
 
+// Writes the lanes of the mask's set bits to `to`, one after the other; writes 8 in all.
+void StoreSetLanes(std::uint64_t mask, const xsimd::batch<float, Avx2>& from, float* to) {
+  const __m128i bytes = _mm_cvtsi64_si128(static_cast<long long>(kSetBits.of[mask]));
+  _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(from.data, _mm256_cvtepu8_epi32(bytes)));
+}
+
+// Lanes 0 .. 3 plus lanes 4 .. 7.
+__m128 FoldToFour(const xsimd::batch<float, Avx2>* eight) {
+  return _mm_add_ps(_mm256_castps256_ps128(eight->data), _mm256_extractf128_ps(eight->data, 1));
+}
+
 }  // namespace
 }  // namespace flocklift
 

@@ -30,6 +30,16 @@ std::uint32_t AppendSetBits(std::uint64_t mask, std::uint32_t base, std::uint32_
   return static_cast<std::uint32_t>(__builtin_popcountll(mask));
 }
 
+// Writes the lanes of the mask's set bits to `to`, one after the other; may write 8 in all.
+void StoreSetLanes(std::uint64_t mask, const xsimd::batch<float, Avx512Vl>& from, float* to) {
+  _mm256_storeu_ps(to, _mm256_maskz_compress_ps(static_cast<__mmask8>(mask), from.data));
+}
+
+// Lanes 0 .. 3 plus lanes 4 .. 7.
+__m128 FoldToFour(const xsimd::batch<float, Avx512Vl>* eight) {
+  return _mm_add_ps(_mm256_castps256_ps128(eight->data), _mm256_extractf128_ps(eight->data, 1));
+}
+
 }  // namespace
 }  // namespace flocklift
 

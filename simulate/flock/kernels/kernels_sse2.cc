@@ -27,6 +27,22 @@ std::uint32_t AppendSetBits(std::uint64_t mask, std::uint32_t base, std::uint32_
   return count;
 }
 
+// Writes the lanes of the mask's set bits to `to`, one after the other; may write 4 numbers beyond.
+void StoreSetLanes(std::uint64_t mask, const xsimd::batch<float, Sse2>& from, float* to) {
+  alignas(16) float lanes[4];
+  from.store_aligned(lanes);
+  std::uint32_t count = 0;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    to[count] = lanes[k];
+    count += static_cast<std::uint32_t>(mask >> k) & 1U;
+  }
+}
+
+// Lanes 0 .. 3 plus lanes 4 .. 7 of two packs.
+__m128 FoldToFour(const xsimd::batch<float, Sse2>* eight) {
+  return _mm_add_ps(eight[0].data, eight[1].data);
+}
+
 }  // namespace
 }  // namespace flocklift
 
