@@ -100,6 +100,20 @@ TEST(PairForces, ZonesAreBruteForce) {
   }
 }
 
+TEST(PairForces, ShapePairsAreBruteForce) {
+  ShapeParameters p;
+  p.r_ali = 0.7;
+  for (const NamedFlock& flock : ManyFlocks()) {
+    for (const double range : {0.2, 1.0, 5.0}) {
+      SCOPED_TRACE(flock.name);
+      const ShapePairNumbers n = MakeShapePairNumbers(p, 0.3, range);
+      const SortedFlock<double> sorted(flock, Reach(n));
+      ExpectSame(sorted.Sum(n, "scalar"),
+                 BruteForce(sorted.bodies, MakeShapePairs<double>(n), Anyone), 1e-9);
+    }
+  }
+}
+
 TEST(PairForces, OpenSteersRulesAreBruteForce) {
   for (const NamedFlock& plain : ManyFlocks()) {
     SCOPED_TRACE(plain.name);
