@@ -59,6 +59,8 @@ TEST(Kernels, Shape) {
   p.r_ali = 0.7;
   ExpectVariantsGiveTheSameBytes(MakeShapePairNumbers(p, 0.3, 1.0));
   ExpectVariantsGiveTheSameBytes(MakeShapePairNumbers(p, 0.5, 0.2));
+  ExpectVariantsGiveTheSameBytes(
+      MakeShapePairNumbers(p, 0.3, 5.0));  // several blocks of candidates
 }
 
 TEST(Kernels, Steer) {
