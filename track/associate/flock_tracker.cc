@@ -161,7 +161,7 @@ std::vector<FlockTracker::Observation> FlockTracker::Observe(const BlobFrame& bl
     }
     std::vector<Expectation> expectations;
     for (const int i : inside) expectations.push_back(ExpectationOf(animals_[i]));
-    const std::vector<Share> shares = ShareBlob(PixelsOf(blobs, blob), expectations);
+    const std::vector<BlobShare> shares = ShareBlob(PixelsOf(blobs, blob), expectations);
     for (std::size_t k = 0; k < inside.size(); ++k) {
       observations.push_back({.position = shares[k].position,
                               .variance = shares[k].variance,

@@ -27,11 +27,11 @@ struct Gaussian {
 
 }  // namespace
 
-std::vector<Share> ShareBlob(std::span<const BlobPixel> pixels,
-                             std::span<const Expectation> animals) {
+std::vector<BlobShare> ShareBlob(std::span<const BlobPixel> pixels,
+                                 std::span<const Expectation> animals) {
   const std::size_t count = animals.size();
   std::vector<Gaussian> gaussians;
-  std::vector<Share> shares(count);
+  std::vector<BlobShare> shares(count);
   std::vector<Vec2d> means(count);
   for (std::size_t k = 0; k < count; ++k) {
     gaussians.emplace_back(animals[k]);

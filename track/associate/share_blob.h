@@ -28,14 +28,14 @@ struct Expectation {
 };
 
 // Its share of the blob.
-struct Share {
+struct BlobShare {
   Vec2d position;        // measured [px]
   double variance = 1;   // R_k [px^2]
   double ambiguity = 0;  // share of its pixels that others explain as well, in [0, 1]
 };
 
-std::vector<Share> ShareBlob(std::span<const BlobPixel> pixels,
-                             std::span<const Expectation> animals);
+std::vector<BlobShare> ShareBlob(std::span<const BlobPixel> pixels,
+                                 std::span<const Expectation> animals);
 
 }  // namespace flocklift
 

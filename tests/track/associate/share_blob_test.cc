@@ -32,7 +32,7 @@ Expectation Expect(const SoftBlob& b, double dx, double dy) {
           MomentsOf({4 * b.major_sd, 4 * b.minor_sd, b.angle_deg, 0})};
 }
 
-double Error(const Share& share, const SoftBlob& b) {
+double Error(const BlobShare& share, const SoftBlob& b) {
   return std::hypot(share.position.x - b.center.x, share.position.y - b.center.y);
 }
 
@@ -40,7 +40,7 @@ TEST(ShareBlobTest, FindsTwoThatTouchFromPredictionsThatAreOff) {
   const SoftBlob a{.center = {27.2, 30.1}},
       b{.center = {33.4, 31.3}, .major_sd = 3, .minor_sd = 1.5};
   const std::vector<Expectation> expectations{Expect(a, 0.8, -0.7), Expect(b, -0.9, 0.8)};
-  const std::vector<Share> shares = ShareBlob(PixelsOf({a, b}), expectations);
+  const std::vector<BlobShare> shares = ShareBlob(PixelsOf({a, b}), expectations);
   ASSERT_EQ(shares.size(), 2u);
   EXPECT_LT(Error(shares[0], a), 0.4);
   EXPECT_LT(Error(shares[1], b), 0.4);
@@ -50,7 +50,7 @@ TEST(ShareBlobTest, FindsThree) {
   const SoftBlob a{.center = {24, 30}}, b{.center = {31, 28}}, c{.center = {29, 35}};
   const std::vector<Expectation> expectations{Expect(a, 1, 0), Expect(b, 0, -1),
                                               Expect(c, -1, 0.5)};
-  const std::vector<Share> shares = ShareBlob(PixelsOf({a, b, c}), expectations);
+  const std::vector<BlobShare> shares = ShareBlob(PixelsOf({a, b, c}), expectations);
   EXPECT_LT(Error(shares[0], a), 0.4);
   EXPECT_LT(Error(shares[1], b), 0.4);
   EXPECT_LT(Error(shares[2], c), 0.4);
