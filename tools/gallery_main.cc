@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// flocklift_gallery PAPERS.csv SHEET.png RUN...: the second half of tools/gallery. Writes the
+// flocklift_gallery PAPERS.csv SHEET.jpg RUN...: the second half of tools/gallery. Writes the
 // contact sheet, and the table on standard output.
 
 #include <fmt/format.h>
@@ -11,14 +11,16 @@
 #include <filesystem>
 #include <vector>
 
+#include "simulate/core/atomic_file.h"
 #include "simulate/render/image_codec.h"
 #include "tools/gallery_sheet.h"
 
 int main(int argc, char** argv) {
   constexpr int kColumns = 3;
+  constexpr int kQuality = 85;  // of 100
   try {
     if (argc < 4) {
-      fmt::print(stderr, "usage: flocklift_gallery PAPERS.csv SHEET.png RUN...\n");
+      fmt::print(stderr, "usage: flocklift_gallery PAPERS.csv SHEET.jpg RUN...\n");
       return 2;
     }
     const auto papers = flocklift::ReadPaperFigures(argv[1]);
@@ -33,7 +35,8 @@ int main(int argc, char** argv) {
         entry.paper_mde = paper.mde;
       }
     }
-    flocklift::WritePng(argv[2], flocklift::ContactSheet(entries, kColumns));
+    const auto sheet = flocklift::EncodeJpeg(flocklift::ContactSheet(entries, kColumns), kQuality);
+    flocklift::WriteTextFile(argv[2], {reinterpret_cast<const char*>(sheet.data()), sheet.size()});
     fmt::print("{}", flocklift::GalleryTable(entries));
   } catch (const std::exception& error) {
     fmt::print(stderr, "flocklift_gallery: {}\n", error.what());

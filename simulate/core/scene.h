@@ -143,8 +143,8 @@ struct EventSpec {
 
 struct CameraSpec {
   std::optional<std::filesystem::path> file = {};  // instead of all below
-  double fov_deg = 50;                        // horizontal
-  int width = 1920, height = 1080;            // [px]
+  double fov_deg = 50;                             // horizontal
+  int width = 1920, height = 1080;                 // [px]
   Vec3d position{0, -45, 1.7};
   Vec3d look_at{0, 0, 12};
   struct Pose {
