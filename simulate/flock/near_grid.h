@@ -5,9 +5,9 @@
 // (simulate/flock/minimum_distance.h), where a grid over all animals suits them: their copies are
 // sorted by cell (counting sort; x fastest, then y, z; stable), cells are at least as wide as the
 // largest distance asked for, and about half an animal each or fewer. An animal is tested against
-// those behind it in its own and the next cell, and against three cells in each of the four rows
-// that follow: half of the neighbourhood, so every pair once. A flock scattered so widely that
-// cells would hold crowds is refused.
+// those behind it in its own and the next cell, and, where it is near enough to the cell's rim,
+// against three cells in each of the four rows that follow: half of the neighbourhood, so every
+// pair once. A flock scattered so widely that cells would hold crowds is refused.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_NEAR_GRID_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_NEAR_GRID_H_
