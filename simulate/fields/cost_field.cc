@@ -34,20 +34,21 @@ CostField::CostField(const ScalarField& distance, const CostOptions& options,
   guide_.resize(grid().size());
   SetSlowness({});
   SetSeeds();
-  Solve();
+  Prepare();
+  CoverAll();
 }
 
 void CostField::SetGoals(std::span<const Solid> goals) {
   goals_.assign(goals.begin(), goals.end());
   SetSeeds();
-  Solve();
+  Prepare();
 }
 
 void CostField::SetExtra(std::span<const float> extra) {
   Check(extra.empty() || extra.size() == grid().size(), "one extra cost per node is needed");
   SetSlowness(extra);
   SetSeeds();  // those beside a goal hold a cost
-  Solve();
+  Prepare();
 }
 
 void CostField::SetSlowness(std::span<const float> extra) {
@@ -86,20 +87,37 @@ void CostField::SetSeeds() {
   eikonal_.SetSeeds(seeds);
 }
 
-void CostField::Solve() {
-  eikonal_.Solve();
-  const Grid& g = grid();
+void CostField::Prepare() {
+  eikonal_.Prepare();
   if (eikonal_.solved_all()) {
-    ParallelFor(threads_, 0, static_cast<std::int64_t>(g.size()), kNodesAtOnce,
-                [&](std::int64_t first, std::int64_t last) {
-                  for (std::int64_t n = first; n < last; ++n) Guide(n);
-                });
+    covers_all_ = false;
+    covered_.assign(grid().size(), 0);
     return;
   }
   for (const std::size_t node : eikonal_.changed()) {
     Guide(node);
-    g.ForEachNeighbour(node, [this](int /*side*/, std::size_t other) { Guide(other); });
+    grid().ForEachNeighbour(node, [this](int /*side*/, std::size_t other) { Guide(other); });
   }
+}
+
+void CostField::Cover(std::span<const std::size_t> nodes) {
+  if (covers_all_) return;
+  for (const std::size_t node : nodes) {
+    if (covered_[node] != 0) continue;
+    eikonal_.Reach(node);
+    Guide(node);
+    covered_[node] = 1;
+  }
+}
+
+void CostField::CoverAll() {
+  if (covers_all_) return;
+  eikonal_.ReachAll();
+  ParallelFor(threads_, 0, static_cast<std::int64_t>(grid().size()), kNodesAtOnce,
+              [this](std::int64_t first, std::int64_t last) {
+                for (std::int64_t n = first; n < last; ++n) Guide(n);
+              });
+  covers_all_ = true;
 }
 
 // V of a node from C, or from the distance in a wall.

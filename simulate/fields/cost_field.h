@@ -49,15 +49,22 @@ class CostField {
   CostField(const ScalarField& distance, const CostOptions& options, std::span<const Solid> goals,
             int threads = 1);
 
-  // Both recompute what changes, and the result is that of a new field, to the bit. The cost of
-  // every node changes with the only goal; with one of several only its surroundings do.
+  // What has been set holds where it is covered, and there the field is a new one's, to the bit.
+  // The cost of every node changes with the only goal, and then only what is covered is computed
+  // anew: a swarm close behind its goal asks for little. With one of several goals only its
+  // surroundings change, and the rest stays covered.
   void SetGoals(std::span<const Solid> goals);
   // Cost by node in addition, >= 0 [per metre]; empty: none.
   void SetExtra(std::span<const float> extra);
 
+  // Computes cost and guide of the nodes, and what is cheaper than they are.
+  void Cover(std::span<const std::size_t> nodes);
+  void CoverAll();
+  bool covers_all() const { return covers_all_; }
+
   const Grid& grid() const { return distance_.grid; }
   const CostOptions& options() const { return options_; }
-  // C of a node; infinite in walls and where no goal can be reached.
+  // C of a covered node; infinite in walls and where no goal can be reached.
   float Cost(std::size_t node) const { return eikonal_.At(node); }
   bool IsWall(std::size_t node) const { return eikonal_.IsWall(node); }
   std::size_t unreachable() const;  // free nodes without a way to a goal
@@ -71,7 +78,7 @@ class CostField {
  private:
   void SetSlowness(std::span<const float> extra);
   void SetSeeds();
-  void Solve();
+  void Prepare();
   void Guide(std::size_t node);
 
   ScalarField distance_;
@@ -81,6 +88,8 @@ class CostField {
   int threads_;
   Eikonal eikonal_;
   std::vector<GuideNode> guide_;
+  std::vector<std::uint8_t> covered_;  // by node; counts where not all are
+  bool covers_all_ = false;
 };
 
 }  // namespace flocklift

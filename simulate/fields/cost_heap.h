@@ -23,6 +23,7 @@ class CostHeap {
 
   bool Empty() const { return entries_.empty(); }
   void Clear() { entries_.clear(); }
+  float LeastCost() const { return entries_.front().cost; }
 
   // Four children each: shallower than with two, and the children share a cache line.
   void Push(float cost, std::uint32_t node) {

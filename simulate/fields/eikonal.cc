@@ -114,25 +114,26 @@ bool Eikonal::Raise() {
   return true;
 }
 
-// Spreads from the nodes in the heap until every node's equation holds. A node can change more than
-// once (its neighbour may have been provisional); the heap's older entries are then passed over.
-void Eikonal::March(bool note_changes) {
-  while (!heap_.Empty()) {
-    const internal::CostHeap::Entry entry = heap_.Pop();
-    if (entry.cost != value_[entry.node]) continue;
-    for (const std::ptrdiff_t offset : offsets_) {
-      const auto other = static_cast<std::uint32_t>(entry.node + offset);
-      if (!(value_[other] > entry.cost)) continue;  // does not depend on this node
-      const float value = Update(other);
-      if (value == value_[other]) continue;
-      value_[other] = value;
-      heap_.Push(value, other);
-      if (note_changes) changed_.push_back(Unpadded(other));
-    }
+// Takes the cheapest node from the heap and spreads to its neighbours; when the heap is empty,
+// every node's equation holds. A node can change more than once (its neighbour may have been
+// provisional); the heap's older entries are then passed over. `change` is told of every node that
+// changes.
+template <typename Change>
+void Eikonal::Pop(const Change& change) {
+  const internal::CostHeap::Entry entry = heap_.Pop();
+  if (entry.cost != value_[entry.node]) return;
+  for (const std::ptrdiff_t offset : offsets_) {
+    const auto other = static_cast<std::uint32_t>(entry.node + offset);
+    if (!(value_[other] > entry.cost)) continue;  // does not depend on this node
+    const float value = Update(other);
+    if (value == value_[other]) continue;
+    value_[other] = value;
+    heap_.Push(value, other);
+    change(other);
   }
 }
 
-void Eikonal::SolveAll() {
+void Eikonal::Begin() {
   std::fill(value_.begin(), value_.end(), kInfinite);
   heap_.Clear();
   for (const std::uint32_t node : seeded_) {
@@ -140,28 +141,46 @@ void Eikonal::SolveAll() {
     value_[node] = seed_[node];
     heap_.Push(seed_[node], node);
   }
-  March(false);
+  complete_ = false;
+}
+
+void Eikonal::Local() {
+  for (const std::uint32_t node : raised_) changed_.push_back(Unpadded(node));
+  raised_.insert(raised_.end(), edited_.begin(), edited_.end());
+  for (const std::uint32_t node : raised_) {
+    const float value = Update(node);
+    if (value == value_[node]) continue;
+    value_[node] = value;
+    heap_.Push(value, node);
+    changed_.push_back(Unpadded(node));
+  }
+  while (!heap_.Empty()) {
+    Pop([this](std::uint32_t node) { changed_.push_back(Unpadded(node)); });
+  }
+}
+
+void Eikonal::Prepare() {
+  changed_.clear();
+  solved_all_ = !complete_ || edited_.size() > free_ / kLocalShare || !Raise();
+  solved_all_ ? Begin() : Local();
+  edited_.clear();
+}
+
+void Eikonal::Reach(std::size_t node) {
+  if (complete_ || IsWall(node)) return;
+  // What is still to come costs at least as much as the heap's cheapest.
+  const float& value = value_[Padded(node)];
+  while (!heap_.Empty() && heap_.LeastCost() < value) Pop([](std::uint32_t) {});
+}
+
+void Eikonal::ReachAll() {
+  while (!heap_.Empty()) Pop([](std::uint32_t) {});
+  complete_ = true;
 }
 
 void Eikonal::Solve() {
-  changed_.clear();
-  solved_all_ = fresh_ || edited_.size() > free_ / kLocalShare || !Raise();
-  if (solved_all_) {
-    SolveAll();
-  } else {
-    for (const std::uint32_t node : raised_) changed_.push_back(Unpadded(node));
-    raised_.insert(raised_.end(), edited_.begin(), edited_.end());
-    for (const std::uint32_t node : raised_) {
-      const float value = Update(node);
-      if (value == value_[node]) continue;
-      value_[node] = value;
-      heap_.Push(value, node);
-      changed_.push_back(Unpadded(node));
-    }
-    March(true);
-  }
-  fresh_ = false;
-  edited_.clear();
+  Prepare();
+  ReachAll();
 }
 
 }  // namespace flocklift

@@ -46,12 +46,20 @@ class Eikonal {
   // than a part of the grid; otherwise all of it.
   void Solve();
 
+  // Likewise, but where all of the grid would be computed anew, nothing is yet: then C of a node is
+  // right once Reach has been called for it. That computes only what is cheaper than the node, and
+  // goes on where the last call stopped.
+  void Prepare();
+  void Reach(std::size_t node);
+  void ReachAll();
+
   float At(std::size_t node) const { return value_[Padded(node)]; }
   bool IsWall(std::size_t node) const { return step_[Padded(node)] == kInfinite; }
   // C of the neighbours: before and after along x, y, z; infinite beyond the grid and in walls.
   std::array<float, 6> Neighbours(std::size_t node) const;
 
-  // The nodes that the last Solve may have changed, in any order; all of them after a full one.
+  // The nodes that the last Solve or Prepare may have changed, in any order; all of them when it
+  // began anew.
   bool solved_all() const { return solved_all_; }
   const std::vector<std::size_t>& changed() const { return changed_; }
 
@@ -68,8 +76,10 @@ class Eikonal {
   }
   float Update(std::size_t padded) const;
   bool Raise();
-  void March(bool note_changes);
-  void SolveAll();
+  void Begin();
+  void Local();
+  template <typename Change>
+  void Pop(const Change& change);
 
   Grid grid_;
   std::size_t row_, slice_, free_ = 0;
@@ -80,7 +90,8 @@ class Eikonal {
   std::vector<std::uint32_t> raised_;
   internal::CostHeap heap_;
   std::vector<std::size_t> changed_;
-  bool solved_all_ = true, fresh_ = true;
+  bool solved_all_ = true;
+  bool complete_ = false;  // every node's equation holds
 };
 
 }  // namespace flocklift

@@ -9,6 +9,7 @@
 #include "simulate/core/check.h"
 #include "simulate/core/parallel_for.h"
 #include "simulate/fields/solids.h"
+#include "simulate/flock/swarm_velocity.h"
 #include "simulate/flock/wall_field.h"
 
 namespace flocklift {
@@ -20,8 +21,13 @@ std::vector<Solid> GoalBalls(std::span<const GoalSpec> goals) {
   return balls;
 }
 
-std::int8_t Byte(double share) {
-  return static_cast<std::int8_t>(std::lround(127 * std::clamp(share, -1.0, 1.0)));
+// Of a share in [-1, 1].
+std::int8_t Byte(float share) {
+  return static_cast<std::int8_t>(127 * share + std::copysign(0.5F, share));
+}
+
+std::size_t CellCount(const SwarmGuide& guide) {
+  return static_cast<std::size_t>(guide.nx) * guide.ny * guide.nz;
 }
 
 }  // namespace
@@ -30,56 +36,67 @@ GuideField::GuideField(const World& world, double spacing, const CostOptions& op
                        std::span<const GoalSpec> goals, int threads)
     : distance_(WallField(world, spacing, threads)), threads_(threads) {
   if (!goals.empty()) cost_.emplace(distance_, options, GoalBalls(goals), threads);
-  Pack();
+  PackAll();
 }
 
 void GuideField::SetGoals(std::span<const GoalSpec> goals) {
   if (!cost_) return;
   cost_->SetGoals(GoalBalls(goals));
-  Pack();
+  packed_.assign(CellCount(View(0)), 0);
 }
 
 void GuideField::SetExtra(std::span<const float> extra) {
   if (!cost_) return;
   cost_->SetExtra(extra);
-  Pack();
+  packed_.assign(CellCount(View(0)), 0);
 }
 
-void GuideField::Pack() {
-  const Grid& g = grid();
-  // Nodes first, four bytes each; then every cell copies its corners'.
-  std::vector<std::int8_t> nodes(4 * g.size());
-  const auto count = static_cast<std::int64_t>(g.size());
-  const double per_reach = 1 / WallReach();
-  ParallelFor(threads_, 0, count, 16384, [&](std::int64_t first, std::int64_t last) {
-    for (auto n = static_cast<std::size_t>(first); n < static_cast<std::size_t>(last); ++n) {
-      const GuideNode node = cost_ ? cost_->guide()[n] : GuideNode{};
-      nodes[4 * n] = Byte(static_cast<double>(node.x));
-      nodes[4 * n + 1] = Byte(static_cast<double>(node.y));
-      nodes[4 * n + 2] = Byte(static_cast<double>(node.z));
-      nodes[4 * n + 3] = Byte(per_reach * static_cast<double>(distance_.values[n]));
-    }
-  });
+template <typename T>
+void GuideField::Cover(const Bodies<T>& animals) {
+  if (packed_.empty()) return;
   const SwarmGuide view = View(0);
-  const auto cells = static_cast<std::size_t>(view.nx) * view.ny * view.nz;
-  cells_.resize(kGuideCellBytes * cells + kGuideCellBytes);
-  std::int8_t* const to = const_cast<std::int8_t*>(View(0).cells);
-  ParallelFor(threads_, 0, static_cast<std::int64_t>(view.ny) * view.nz, 64,
-              [&](std::int64_t first, std::int64_t last) {
-                for (std::int64_t row = first; row < last; ++row) {
-                  const int j = static_cast<int>(row % view.ny),
-                            k = static_cast<int>(row / view.ny);
-                  std::int8_t* out = to + kGuideCellBytes * row * view.nx;
-                  for (int i = 0; i < view.nx; ++i, out += kGuideCellBytes) {
-                    for (int corner = 0; corner < 8; ++corner) {
-                      const std::size_t node = g.Index(std::min(i + corner % 2, g.nx - 1),
-                                                       std::min(j + corner / 2 % 2, g.ny - 1),
-                                                       std::min(k + corner / 4, g.nz - 1));
-                      std::copy_n(&nodes[4 * node], 4, out + 4 * corner);
-                    }
-                  }
-                }
-              });
+  for (std::size_t k = 0; k < animals.size(); ++k) {
+    const std::size_t cell = PlaceInGuide(view, animals.Position(k)).cell;
+    if (packed_[cell] != 0) continue;
+    cost_->Cover(Corners(cell));
+    PackCell(cell);
+    packed_[cell] = 1;
+  }
+}
+
+template void GuideField::Cover(const Bodies<float>&);
+template void GuideField::Cover(const Bodies<double>&);
+
+void GuideField::PackAll() {
+  const auto cells = static_cast<std::int64_t>(CellCount(View(0)));
+  cells_.resize(kGuideCellBytes * (static_cast<std::size_t>(cells) + 1));
+  ParallelFor(threads_, 0, cells, 4096, [this](std::int64_t first, std::int64_t last) {
+    for (std::int64_t cell = first; cell < last; ++cell) PackCell(static_cast<std::size_t>(cell));
+  });
+}
+
+void GuideField::PackCell(std::size_t cell) {
+  const float per_reach = 1 / static_cast<float>(WallReach());
+  std::int8_t* out = const_cast<std::int8_t*>(View(0).cells) + kGuideCellBytes * cell;
+  for (const std::size_t corner : Corners(cell)) {
+    const GuideNode node = cost_ ? cost_->guide()[corner] : GuideNode{};
+    for (const float of : {node.x, node.y, node.z}) *out++ = Byte(of);
+    *out++ = Byte(std::clamp(per_reach * distance_.values[corner], -1.0F, 1.0F));
+  }
+}
+
+std::array<std::size_t, 8> GuideField::Corners(std::size_t cell) const {
+  const Grid& g = grid();
+  const SwarmGuide view = View(0);
+  const std::size_t row = cell / view.nx;
+  const int i = static_cast<int>(cell % view.nx), j = static_cast<int>(row % view.ny),
+            k = static_cast<int>(row / view.ny);
+  std::array<std::size_t, 8> corners{};
+  for (int c = 0; c < 8; ++c) {
+    corners[c] = g.Index(std::min(i + c % 2, g.nx - 1), std::min(j + c / 2 % 2, g.ny - 1),
+                         std::min(k + c / 4, g.nz - 1));
+  }
+  return corners;
 }
 
 SwarmGuide GuideField::View(double speed) const {

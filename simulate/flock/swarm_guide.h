@@ -9,6 +9,8 @@
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_SWARM_GUIDE_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_SWARM_GUIDE_H_
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -16,6 +18,7 @@
 
 #include "simulate/fields/cost_field.h"
 #include "simulate/fields/grid_field.h"
+#include "simulate/flock/bodies.h"
 #include "simulate/flock/kernels/swarm_kernel.h"
 #include "simulate/flock/world.h"
 
@@ -28,10 +31,13 @@ class GuideField {
   GuideField(const World& world, double spacing, const CostOptions& options,
              std::span<const GoalSpec> goals, int threads);
 
-  // Goals that have moved, as many as before.
+  // Goals that have moved, as many as before. From then on the guide holds where it is covered.
   void SetGoals(std::span<const GoalSpec> goals);
-  // A further cost by node [per metre].
+  // A further cost by node [per metre]; likewise.
   void SetExtra(std::span<const float> extra);
+  // Makes it hold where the animals are: of the way to the goals only what is nearer is found.
+  template <typename T>
+  void Cover(const Bodies<T>& animals);
 
   const Grid& grid() const { return distance_.grid; }
   const ScalarField& distance() const { return distance_; }
@@ -40,12 +46,15 @@ class GuideField {
   double WallReach() const { return 2 * grid().spacing; }
 
  private:
-  void Pack();
+  void PackAll();
+  void PackCell(std::size_t cell);
+  std::array<std::size_t, 8> Corners(std::size_t cell) const;
 
   ScalarField distance_;
   std::optional<CostField> cost_;
   int threads_;
-  std::vector<std::int8_t> cells_;  // with room to begin on a cache line
+  std::vector<std::int8_t> cells_;    // with room to begin on a cache line
+  std::vector<std::uint8_t> packed_;  // by cell; empty: all of them
 };
 
 }  // namespace flocklift

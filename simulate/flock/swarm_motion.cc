@@ -88,7 +88,10 @@ class SwarmMotion final : public Motion<T> {
     job_.noise = plain.data();
     job_.noise_count = smooth && p_.gain > 0 ? static_cast<int>(plain.size()) : 0;
     job_.curl = p_.noise_kind() == SwarmNoiseKind::kCurl;
-    if (guide_) job_.guide = guide_->View(p_.s0);
+    if (guide_) {
+      guide_->Cover(herd->now);
+      job_.guide = guide_->View(p_.s0);
+    }
     pool->For(0, static_cast<std::int64_t>(herd->size()), kAgentGrain,
               [&](std::int64_t first, std::int64_t last) {
                 const auto begin = static_cast<std::size_t>(first);

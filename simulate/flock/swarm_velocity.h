@@ -30,9 +30,15 @@ Vec3<T> SwarmNoiseVelocity(const SwarmJob& job, int which, const Vec3<T>& x) {
   return job.curl ? CurlNoise(term, x) : PerlinVelocity(term, x);
 }
 
-// Trilinear: along z, then y, then x.
+// Where a point is among a guide's cells: which one, and how far along it.
 template <typename T>
-GuideSample<T> SampleGuide(const SwarmGuide& guide, const Vec3<T>& x) {
+struct GuidePlace {
+  std::size_t cell;
+  T along_x, along_y, along_z;  // in [0, 1]
+};
+
+template <typename T>
+GuidePlace<T> PlaceInGuide(const SwarmGuide& guide, const Vec3<T>& x) {
   struct Place {
     std::size_t cell;
     T share;
@@ -45,19 +51,25 @@ GuideSample<T> SampleGuide(const SwarmGuide& guide, const Vec3<T>& x) {
   };
   const Place a = place(x.x, guide.low_x, guide.nx), b = place(x.y, guide.low_y, guide.ny),
               c = place(x.z, guide.low_z, guide.nz);
-  const std::size_t row = static_cast<std::size_t>(guide.nx);
-  const std::size_t cell = (c.cell * static_cast<std::size_t>(guide.ny) + b.cell) * row + a.cell;
-  const std::int8_t* const corners = guide.cells + kGuideCellBytes * cell;
+  const auto nx = static_cast<std::size_t>(guide.nx), ny = static_cast<std::size_t>(guide.ny);
+  return {(c.cell * ny + b.cell) * nx + a.cell, a.share, b.share, c.share};
+}
+
+// Trilinear: along z, then y, then x.
+template <typename T>
+GuideSample<T> SampleGuide(const SwarmGuide& guide, const Vec3<T>& x) {
+  const GuidePlace<T> at = PlaceInGuide(guide, x);
+  const std::int8_t* const corners = guide.cells + kGuideCellBytes * at.cell;
   const auto lerp = [](T from, T to, T share) { return from + share * (to - from); };
   T found[4];
   for (std::size_t n = 0; n < 4; ++n) {
-    const auto along_zy = [&](const std::int8_t* at) {
+    const auto along_zy = [&](const std::int8_t* from) {
       const auto along_z = [&](const std::int8_t* p) {
-        return lerp(T(p[n]), T(p[n + 16]), c.share);
+        return lerp(T(p[n]), T(p[n + 16]), at.along_z);
       };
-      return lerp(along_z(at), along_z(at + 8), b.share);
+      return lerp(along_z(from), along_z(from + 8), at.along_y);
     };
-    found[n] = lerp(along_zy(corners), along_zy(corners + 4), a.share);
+    found[n] = lerp(along_zy(corners), along_zy(corners + 4), at.along_x);
   }
   const T speed = T(guide.speed) / T(127), reach = T(guide.reach) / T(127);
   return {{found[0] * speed, found[1] * speed, found[2] * speed}, found[3] * reach};

@@ -199,16 +199,45 @@ TEST(CostField, WallsLeadOut) {
 
 TEST(CostField, AMovedGoalGivesTheFreshField) {
   const ScalarField distance = DistanceField(kVillageGrid, Village());
-  std::vector<Solid> goals = {Ball{{15, 7, 6}, 0.8}, Ball{{0, 7, 0}, 0.5}, Ball{{5, 7, 7}, 0.1}};
+  std::vector<Solid> goals = {Ball{{15, 7, 6}, 0.8}, Ball{{0, 7, 0}, 0.5}, Ball{{5, 7, 7}, 0.1},
+                              Ball{{8, 7, 6}, 0.3}, Ball{{5, 5, 3}, 0.3}};
   CostField kept(distance, {}, goals);
   for (int move = 0; move < 4; ++move) {
     goals[2] = Ball{{5 + 0.3 * move, 7 - 0.2 * move, 7}, 0.1};
     kept.SetGoals(goals);
+    EXPECT_TRUE(kept.covers_all());  // only the goal's surroundings were computed
     ExpectSame(kept, CostField(distance, {}, goals));
   }
   goals.resize(1);
   kept.SetGoals(goals);
+  kept.CoverAll();
   ExpectSame(kept, CostField(distance, {}, goals));
+}
+
+TEST(CostField, WhatIsCoveredIsTheFreshFields) {
+  const ScalarField distance = DistanceField(kVillageGrid, Village());
+  CostField kept(distance, {}, kGoals);
+  Rng rng(8);
+  for (int move = 0; move < 5; ++move) {
+    const std::vector<Solid> goals = {Ball{{3.0 + 2 * move, 7, 6}, 0.4}};
+    kept.SetGoals(goals);
+    const CostField fresh(distance, {}, goals);
+    double dearest = 0;
+    for (int ask = 0; ask < 50; ++ask) {
+      const std::size_t node = kept.grid().Nearest(
+          {rng.Uniform(3, 7) + 2 * move - 2, rng.Uniform(6, 8), rng.Uniform(5, 7)});
+      kept.Cover({{node}});
+      ASSERT_EQ(kept.Cost(node), fresh.Cost(node));
+      ASSERT_EQ(std::memcmp(&kept.guide()[node], &fresh.guide()[node], sizeof(GuideNode)), 0);
+      if (!kept.IsWall(node)) dearest = std::max<double>(dearest, kept.Cost(node));
+    }
+    // What is far dearer was not computed.
+    EXPECT_FALSE(kept.covers_all());
+    for (std::size_t n = 0; n < kept.grid().size(); ++n) {
+      if (fresh.Cost(n) <= dearest + 1) continue;
+      ASSERT_EQ(kept.Cost(n), Eikonal::kInfinite);
+    }
+  }
 }
 
 TEST(CostField, CrowdedPlacesAreGoneRound) {
@@ -226,11 +255,14 @@ TEST(CostField, CrowdedPlacesAreGoneRound) {
   const Vec3d start{3, 3.2, 0.5};
   const double straight = field.Direction(start).y;
   field.SetExtra(extra);
+  field.CoverAll();
   EXPECT_GT(field.Direction(start).y, straight + 0.3);
   CostField fresh(distance, {}, goals);
   fresh.SetExtra(extra);
+  fresh.CoverAll();
   ExpectSame(field, fresh);
   field.SetExtra({});
+  field.CoverAll();
   ExpectSame(field, CostField(distance, {}, goals));
 }
 

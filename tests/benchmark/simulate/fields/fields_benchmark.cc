@@ -89,6 +89,7 @@ void MovedGoal(benchmark::State& state) {
   for (auto _ : state) {
     x = x == 115 ? 114.5 : 115;
     field.SetGoals(Goals(x));
+    field.CoverAll();
   }
 }
 
@@ -105,6 +106,7 @@ void MovedGoalOfMany(benchmark::State& state) {
   for (auto _ : state) {
     goal.centre.x = goal.centre.x == x ? x + 0.5 : x;
     field.SetGoals(goals);
+    field.CoverAll();
   }
 }
 
