@@ -9,10 +9,12 @@
 // (P is the derivative of the projection times z, so a stretch towards the image's edge is in it).
 //   e = log size - (log wingspan + bias + ratio - L + log sqrt(Q))
 // `bias` is the individual's, `ratio`, `trunk` and `up` are the flock's: how a wingspan relates to
-// a box or a blob is not known beforehand. Wings are held level, s = g x up; where gravity
-// is not known they are anywhere around g, and s and u count by their mean. (Banking them with the
-// turn would let the size of a bird say how strongly it turns, in m/s^2: a scale that is not to be
-// trusted.)
+// a box or a blob is not known beforehand. Where gravity is known the animal leans into its turns,
+//   s = g x (up + lean a / 9.81 m/s^2),
+// `lean` the flock's: 1 where lift alone carries weight and curve (a coordinated turn), 0 where
+// wings stay level. The acceleration a is that of an earlier solution and stays fixed: otherwise
+// the size of a bird would say how strongly it turns, in m/s^2, a scale that is not to be trusted.
+// Where gravity is not known the wings are anywhere around g, and s and u count by their mean.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_SIZE_H_
 #define FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_SIZE_H_
@@ -31,11 +33,12 @@ struct SizeError {
   double log_size = 0;             // of the angular size
   double log_wingspan = 0;         // of the flock's mean [log m]
   std::optional<Vec3d> up_in_cam;  // unit vector, where gravity is known
+  Vec3d curve{};                   // a / 9.81 m/s^2, camera frame
 
   // c: control points k-1 .. k+1, each (X, Y, L); log_trunk and log_up are logs of proportions.
   template <typename T>
   void operator()(const T* c, const T& bias, const T& ratio, const T& log_trunk, const T& log_up,
-                  T* error) const {
+                  const T& lean, T* error) const {
     using std::exp;
     using std::log;
     const PathState<T> q = StateAtKnot(c, rate);
@@ -50,9 +53,11 @@ struct SizeError {
     const T along = seen(w) / speed2;
     T across = 0.5 * (whole - along);
     if (up_in_cam) {
-      const Vec3<T> side = Cross(w, Vec3<T>{T(up_in_cam->x), T(up_in_cam->y), T(up_in_cam->z)});
-      // Of a heading within some 10 degrees of the vertical the side is less and less certain.
-      const T certain = 0.03 * speed2;
+      const Vec3<T> lift = {up_in_cam->x + lean * curve.x, up_in_cam->y + lean * curve.y,
+                            up_in_cam->z + lean * curve.z};
+      const Vec3<T> side = Cross(w, lift);
+      // Of a heading within some 10 degrees of the lift the side is less and less certain.
+      const T certain = 0.03 * speed2 * Dot(lift, lift);
       across = (seen(side) + certain * across) / (Dot(side, side) + certain);
     }
     const T trunk = exp(log_trunk);

@@ -126,6 +126,7 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
     belief = solved.belief;
     result.report.flock_speed = solved.result.report.flock_speed;
     result.report.size_ratio = solved.result.report.size_ratio;
+    result.report.lean = solved.result.report.lean;
     Blend(segments, windows[w], part, solved.result.paths, &result.paths);
     Merge(solved.result.report, part.segments.rows / rows, &result.report);
   }

@@ -38,6 +38,7 @@ struct BatchReport {
   double scale_sd = 0;           // relative sd of the common scale
   Uncertain flock_speed;         // posterior [m/s]
   Uncertain size_ratio;          // posterior, relative to the wingspan's prior
+  Uncertain lean;                // into turns (cost_functions/size.h), posterior
   Uncertain speed_against_size;  // log of (speed by the sizes over speed by its prior)
   std::vector<std::pair<std::string, double>> spreads;  // estimated
   std::vector<TermStatistics> terms;

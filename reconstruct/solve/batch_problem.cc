@@ -25,6 +25,14 @@ struct Feature {
   std::array<double, kPathWidth> path{};
   std::array<std::pair<int, double>, 5> border;
   int border_count = 0;
+
+  void Subtract(const FlockCurve& curve, double time, int axis, const Eigen::VectorXd& shared) {
+    if (curve.knots == 0) return;
+    for (const FlockCurve::Share& share : curve.At(time, axis)) {
+      value -= share.weight * shared[share.index];
+      border[border_count++] = {kOwnUnknowns + share.index, -share.weight};
+    }
+  }
 };
 
 // Evaluates an error functor of three control points and `Extra` further scalars, whose places in
@@ -117,6 +125,7 @@ template <typename Take>
 void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                     bool derivatives, int knot, const Take& take) {
   const double rate = 1 / model.knot_interval;
+  const double time = (bird.first_knot + knot) * model.knot_interval;
   const double* c = &bird.path[3 * static_cast<std::size_t>(knot)];
 
   const AccelerationError acceleration{.rate = rate, .reference_depth = bird.reference_depth};
@@ -125,18 +134,7 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
       [&](const auto* path, const auto*, auto* error) { acceleration(path, error); });
   for (int axis = 0; axis < 3; ++axis) {
     Feature feature = a[axis];
-    if (model.turn_knots > 1) {
-      const double place =
-          std::clamp((bird.first_knot + knot) * model.knot_interval / kTurnKnotTime, 0.0,
-                     model.turn_knots - 1.0);
-      const int left = std::min(static_cast<int>(place), model.turn_knots - 2);
-      for (int side = 0; side < 2; ++side) {
-        const double share = side == 0 ? 1 - (place - left) : place - left;
-        const int index = model.FirstTurnKnot() + 3 * (left + side) + axis;
-        feature.value -= share * shared[index];
-        feature.border[feature.border_count++] = {kOwnUnknowns + index, -share};
-      }
-    }
+    feature.Subtract(model.turn, time, axis, shared);
     take(Term::kAcceleration, axis, feature);
   }
 
@@ -159,32 +157,25 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
                          .softening = bird.softening,
                          .log_size = *bird.size[knot],
                          .log_wingspan = model.log_wingspan,
-                         .up_in_cam = model.up_in_cam};
+                         .up_in_cam = model.up_in_cam,
+                         .curve = bird.curve[knot]};
     take(Term::kSize, 0,
-         Evaluate<1, 4>(derivatives, c,
-                        std::array{bird.own[kOwnSizeBias], shared[kSizeRatio], shared[kLogTrunk],
-                                   shared[kLogUp]},
-                        std::array<int, 4>{kOwnSizeBias, kOwnUnknowns + kSizeRatio,
-                                           kOwnUnknowns + kLogTrunk, kOwnUnknowns + kLogUp},
-                        [&](const auto* path, const auto* x, auto* error) {
-                          size(path, x[0], x[1], x[2], x[3], error);
-                        })[0]);
+         Evaluate<1, 5>(
+             derivatives, c,
+             std::array{bird.own[kOwnSizeBias], shared[kSizeRatio], shared[kLogTrunk],
+                        shared[kLogUp], shared[kLean]},
+             std::array<int, 5>{kOwnSizeBias, kOwnUnknowns + kSizeRatio, kOwnUnknowns + kLogTrunk,
+                                kOwnUnknowns + kLogUp, kOwnUnknowns + kLean},
+             [&](const auto* path, const auto* x, auto* error) {
+               size(path, x[0], x[1], x[2], x[3], x[4], error);
+             })[0]);
   }
   if (model.use_depth && CountsForDepth(model, bird, knot)) {
-    const double place = std::clamp((bird.first_knot + knot) * model.knot_interval / kDepthKnotTime,
-                                    0.0, model.depth_knots - 1.0);
-    const int left = std::min(static_cast<int>(place), std::max(0, model.depth_knots - 2));
-    const double right_share = place - left;
     Feature depth;
-    depth.value = (c[2] + 4 * c[5] + c[8]) / 6 - (1 - right_share) * shared[kFirstDepthKnot + left];
+    depth.value = (c[2] + 4 * c[5] + c[8]) / 6;
     depth.path[2] = depth.path[8] = 1.0 / 6;
     depth.path[5] = 4.0 / 6;
-    depth.border[depth.border_count++] = {kOwnUnknowns + kFirstDepthKnot + left, right_share - 1};
-    if (model.depth_knots > 1) {
-      depth.value -= right_share * shared[kFirstDepthKnot + left + 1];
-      depth.border[depth.border_count++] = {kOwnUnknowns + kFirstDepthKnot + left + 1,
-                                            -right_share};
-    }
+    depth.Subtract(model.depth, time, 0, shared);
     take(Term::kDepth, 0, depth);
   }
 }
@@ -391,59 +382,49 @@ double CostOf(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& 
 double SharedPriors(const BatchModel& model, const Eigen::VectorXd& shared, Eigen::MatrixXd* matrix,
                     Eigen::VectorXd* gradient) {
   double cost = 0;
-  const auto add = [&](int i, int j, double difference, double sd) {  // (x_i - x_j - d) / sd
-    const double r = (shared[i] - (j >= 0 ? shared[j] : 0) - difference) / sd;
+  // (x_i - rho x_j - mean) / sd, without x_j where j < 0
+  const auto add = [&](int i, int j, double rho, double mean, double sd) {
+    const double r = (shared[i] - (j >= 0 ? rho * shared[j] : 0) - mean) / sd;
     cost += 0.5 * r * r;
     if (matrix == nullptr) return;
     const double w = 1 / (sd * sd);
     (*matrix)(i, i) += w;
     (*gradient)[i] += r / sd;
     if (j < 0) return;
-    (*matrix)(j, j) += w;
-    (*matrix)(i, j) -= w;
-    (*matrix)(j, i) -= w;
-    (*gradient)[j] -= r / sd;
+    (*matrix)(j, j) += rho * rho * w;
+    (*matrix)(i, j) -= rho * w;
+    (*matrix)(j, i) -= rho * w;
+    (*gradient)[j] -= rho * r / sd;
   };
   if (model.belief) {
-    const Eigen::Vector4d off = shared.head<4>() - model.belief->mean;
-    const Eigen::Vector4d pull = model.belief->information * off;
+    const Belief::Vector off = shared.head<kFlockScalars>() - model.belief->mean;
+    const Belief::Vector pull = model.belief->information * off;
     cost += 0.5 * off.dot(pull);
     if (matrix != nullptr) {
-      matrix->topLeftCorner<4, 4>() += model.belief->information;
-      gradient->head<4>() += pull;
+      matrix->topLeftCorner<kFlockScalars, kFlockScalars>() += model.belief->information;
+      gradient->head<kFlockScalars>() += pull;
     }
   } else {
-    add(kFlockLogSpeed, -1, model.flock_log_speed.mean, model.flock_log_speed.sd);
-    add(kSizeRatio, -1, model.size_ratio.mean, model.size_ratio.sd);
-    add(kLogTrunk, -1, model.log_trunk.mean, model.log_trunk.sd);
-    add(kLogUp, -1, model.log_up.mean, model.log_up.sd);
+    add(kFlockLogSpeed, -1, 0, model.flock_log_speed.mean, model.flock_log_speed.sd);
+    add(kSizeRatio, -1, 0, model.size_ratio.mean, model.size_ratio.sd);
+    add(kLogTrunk, -1, 0, model.log_trunk.mean, model.log_trunk.sd);
+    add(kLogUp, -1, 0, model.log_up.mean, model.log_up.sd);
+    add(kLean, -1, 0, model.lean.mean, model.lean.sd);
   }
-  for (int k = 0; k < model.depth_knots; ++k) {
-    add(kFirstDepthKnot + k, -1, model.log_depth.mean,
-        model.log_depth.sd * std::sqrt(static_cast<double>(model.depth_knots)));
-    if (k > 0) add(kFirstDepthKnot + k, kFirstDepthKnot + k - 1, 0, model.depth_step_sd);
+  for (int k = 0; k < model.depth.knots; ++k) {
+    const int i = model.depth.first + k;
+    add(i, -1, 0, model.log_depth.mean,
+        model.log_depth.sd * std::sqrt(static_cast<double>(model.depth.knots)));
+    if (k > 0) add(i, i - 1, 1, 0, model.depth_step_sd);
   }
-  const double rho = model.spreads.turn.Correlation(kTurnKnotTime);
-  for (int k = 0; k < model.turn_knots; ++k) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const int i = model.FirstTurnKnot() + 3 * k + axis;
-      if (k == 0) {
-        add(i, -1, 0, model.spreads.turn.sd);
-        continue;
-      }
-      const double sd = model.spreads.turn.StepSd(rho);
-      const double r = (shared[i] - rho * shared[i - 3]) / sd;
-      cost += 0.5 * r * r;
-      if (matrix == nullptr) continue;
-      const double w = 1 / (sd * sd);
-      (*matrix)(i, i) += w;
-      (*matrix)(i - 3, i - 3) += rho * rho * w;
-      (*matrix)(i, i - 3) -= rho * w;
-      (*matrix)(i - 3, i) -= rho * w;
-      (*gradient)[i] += r / sd;
-      (*gradient)[i - 3] -= rho * r / sd;
+  const auto wander = [&](const FlockCurve& curve, const MarkovProcess& process) {
+    const double rho = process.Correlation(curve.interval);
+    for (int i = curve.first; i < curve.end(); ++i) {
+      const bool begins = i < curve.first + curve.width;
+      add(i, begins ? -1 : i - curve.width, rho, 0, begins ? process.sd : process.StepSd(rho));
     }
-  }
+  };
+  wander(model.turn, model.spreads.turn);
   return cost;
 }
 

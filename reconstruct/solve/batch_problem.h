@@ -19,12 +19,13 @@
 #include "reconstruct/knowledge.h"
 #include "reconstruct/solve/arrow_system.h"
 #include "reconstruct/solve/batch_options.h"
+#include "reconstruct/solve/flock_curve.h"
 
 namespace flocklift::internal {
 
-// The flock's unknowns; log depths of its middle at times kDepthKnotTime apart follow the last.
-inline constexpr int kFlockLogSpeed = 0, kSizeRatio = 1, kLogTrunk = 2, kLogUp = 3;
-inline constexpr int kFirstDepthKnot = 4;
+// The flock's unknowns; its curves over time follow the last.
+inline constexpr int kFlockLogSpeed = 0, kSizeRatio = 1, kLogTrunk = 2, kLogUp = 3, kLean = 4;
+inline constexpr int kFlockScalars = 5;
 inline constexpr double kDepthKnotTime = 2;  // [s]
 inline constexpr double kTurnKnotTime = 1;   // [s]
 // An animal's own unknowns.
@@ -65,6 +66,7 @@ struct Bird {
   std::vector<double> path;  // control points, (X, Y, L) each
   std::array<double, kOwnUnknowns> own{};
   std::vector<std::optional<double>> size;  // mean log angular size around each knot
+  std::vector<Vec3d> curve;                 // acceleration over gravity's, at the knots [1]
   double reference_depth = 1;               // scale of accelerations [m]
   double softening = 1e-3;                  // speed over depth that counts as none [1/s]
 
@@ -84,10 +86,12 @@ struct Bird {
   int unknowns() const { return static_cast<int>(path.size()); }
 };
 
-// What is known of the flock's first four unknowns from another part of the same sequence.
+// What is known of the flock's scalars from another part of the same sequence.
 struct Belief {
-  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
-  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+  using Vector = Eigen::Matrix<double, kFlockScalars, 1>;
+  using Matrix = Eigen::Matrix<double, kFlockScalars, kFlockScalars>;
+  Vector mean = Vector::Zero();
+  Matrix information = Matrix::Zero();
 };
 
 // What stays fixed during one solve.
@@ -98,15 +102,13 @@ struct BatchModel {
   std::optional<Vec3d> up_in_cam;
   bool use_size = true, use_climb = true, use_depth = true;
   std::optional<double> log_near, log_far;
-  Uncertain flock_log_speed, size_ratio, log_trunk, log_up, log_depth;
-  std::optional<Belief> belief;  // instead of the first four priors
+  Uncertain flock_log_speed, size_ratio, log_trunk, log_up, lean, log_depth;
+  std::optional<Belief> belief;  // instead of the scalars' priors
   double depth_step_sd = 0.3;    // of the flock's middle over one kDepthKnotTime
-  int depth_knots = 1;
+  FlockCurve depth;              // log depth of the flock's middle
+  FlockCurve turn;               // its common acceleration [m/s^2]
 
-  int turn_knots = 0;  // of the flock's common acceleration, kTurnKnotTime apart; 0: none
-
-  int FirstTurnKnot() const { return kFirstDepthKnot + depth_knots; }
-  int shared() const { return FirstTurnKnot() + 3 * turn_knots; }
+  int shared() const { return turn.end(); }
 };
 
 using RowSink = std::function<void(Term, const ResidualRow&)>;

@@ -22,6 +22,8 @@ constexpr Uncertain kTrunkOfShapes{-1.2, 0.6}, kUpOfShapes{-1.6, 0.7};
 // Log of (root mean square of a box's diagonal over all views, over the wingspan): 0 to -0.1
 // gliding (the extents above add up to 5/6 of the span), -0.2 and less beating; blur adds a little.
 constexpr double kRatioMean = -0.15;
+// How far they lean into their turns: 1 where lift alone carries weight and curve, 0 not at all.
+constexpr Uncertain kLeanIntoTurns{0.7, 0.5};
 
 Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time) {
   const double position = time / model.knot_interval - bird.first_knot;
@@ -94,6 +96,7 @@ void BinSizes(const BatchModel& model, Bird* bird) {
     ++counts[knot];
   }
   bird->size.assign(sums.size(), std::nullopt);
+  bird->curve.assign(sums.size(), Vec3d{});
   for (std::size_t k = 0; k < sums.size(); ++k) {
     if (counts[k] > 0) bird->size[k] = sums[k] / counts[k];
   }
@@ -181,6 +184,7 @@ BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
                          : Uncertain{guess.log_width, kVague};
   model.log_trunk = segments.has_shapes ? kTrunkOfShapes : kTrunkOfBoxes;
   model.log_up = segments.has_shapes ? kUpOfShapes : kUpOfBoxes;
+  model.lean = kLeanIntoTurns;
   model.log_depth = {guess.log_depth, kVague};
   if (knowledge.near && knowledge.far) {
     // Anywhere between them: the sd of a uniform distribution.
@@ -194,15 +198,17 @@ BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
     model.size_ratio.mean = belief->mean[kSizeRatio];
     model.log_trunk.mean = belief->mean[kLogTrunk];
     model.log_up.mean = belief->mean[kLogUp];
+    model.lean.mean = belief->mean[kLean];
     model.log_depth.sd = kVague;
   }
   double last_time = 0;
   for (const Segment& segment : segments.segments) {
     last_time = std::max(last_time, segment.sightings.back().time);
   }
-  model.depth_knots = static_cast<int>(std::ceil(last_time / kDepthKnotTime)) + 1;
+  model.depth = FlockCurve::Until(last_time, kFlockScalars, 1, kDepthKnotTime);
+  model.turn = {.first = model.depth.end()};
   if (options.flock_turn) {
-    model.turn_knots = static_cast<int>(std::ceil(last_time / kTurnKnotTime)) + 1;
+    model.turn = FlockCurve::Until(last_time, model.depth.end(), 3, kTurnKnotTime);
   }
   return model;
 }
@@ -228,8 +234,9 @@ Eigen::VectorXd StartOfShared(const BatchModel& model) {
   shared[kSizeRatio] = model.size_ratio.mean;
   shared[kLogTrunk] = model.log_trunk.mean;
   shared[kLogUp] = model.log_up.mean;
-  shared.segment(kFirstDepthKnot, model.depth_knots).setConstant(model.log_depth.mean);
-  shared.tail(3 * model.turn_knots).setZero();
+  shared[kLean] = model.lean.mean;
+  shared.tail(model.shared() - kFlockScalars).setZero();
+  shared.segment(model.depth.first, model.depth.size()).setConstant(model.log_depth.mean);
   return shared;
 }
 

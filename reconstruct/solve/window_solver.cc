@@ -127,6 +127,7 @@ bool Solver::Minimize(int max_iterations, BatchReport* report,
                       const std::function<void()>& on_iteration) {
   constexpr double kEnough = 2e-3, kEnoughRelative = 1e-8;  // fall of the cost that counts
   double cost = Cost();
+  for (std::size_t i = 0; i < work_.size(); ++i) work_[i].candidate = state_.birds[i];
   int still = 0;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     on_iteration();
@@ -216,7 +217,7 @@ void EstimateSpreads(const Spreads& guess, State* state, Solver* solver) {
   SpreadEstimator all(state->model.spreads);
   for (const SpreadEstimator& estimator : of_bird) all.Merge(estimator);
   const BatchModel& model = state->model;
-  for (int i = model.FirstTurnKnot(); i < model.shared(); ++i) {
+  for (int i = model.turn.first; i < model.turn.end(); ++i) {
     all.Add(Term::kTurn, state->shared[i], covariance(i, i));
   }
   all.Update(guess, &state->model.spreads);
@@ -224,6 +225,18 @@ void EstimateSpreads(const Spreads& guess, State* state, Solver* solver) {
     double sum = 0;
     for (std::size_t k = 2; k < bird.path.size(); k += 3) sum += bird.path[k];
     bird.reference_depth = std::exp(sum * 3 / static_cast<double>(bird.path.size()));
+  }
+}
+
+// How the animals turn as far as is known now, for their lean (cost_functions/size.h).
+void UpdateCurves(State* state) {
+  constexpr double kGravity = 9.81;  // [m/s^2]
+  const double rate = 1 / state->model.knot_interval;
+  for (Bird& bird : state->birds) {
+    for (std::size_t knot = 0; knot < bird.curve.size(); ++knot) {
+      const PathState<double> q = StateAtKnot(&bird.path[3 * knot], rate);
+      bird.curve[knot] = std::exp(q.l) / kGravity * AccelerationOverDepth(q);
+    }
   }
 }
 
@@ -294,6 +307,7 @@ Eigen::MatrixXd ReadOut(State* state, Solver* solver, BatchResult* result) {
                                    (model.size_ratio.mean - state->shared[kSizeRatio]),
                                std::hypot(model.flock_log_speed.sd, model.size_ratio.sd)};
   report.size_ratio = {ratio, ratio * std::sqrt(covariance(kSizeRatio, kSizeRatio))};
+  report.lean = {state->shared[kLean], std::sqrt(covariance(kLean, kLean))};
   return covariance;
 }
 
@@ -322,7 +336,7 @@ void CollectTerms(const State& state, BatchReport* report) {
                      {"size over time", s.size.sd},
                      {"sine of climb", s.climb.sd},
                      {"log depth", s.depth.sd}};
-  if (state.model.turn_knots > 0) {
+  if (state.model.turn.knots > 0) {
     report->spreads.push_back({"common acceleration [m/s^2]", s.turn.sd});
   }
 }
@@ -355,13 +369,15 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
     const Spreads first_guess = state.model.spreads;
     for (int round = 0; round < kSpreadRounds; ++round) {
       EstimateSpreads(first_guess, &state, &solver);
+      UpdateCurves(&state);
       report.converged = solver.Minimize(kSpreadIterations, &report, on_iteration);
     }
   }
   report.final_cost = solver.Cost();
   const Eigen::MatrixXd covariance = ReadOut(&state, &solver, &solved.result);
   CollectTerms(state, &report);
-  solved.belief = {state.shared.head<4>(), covariance.topLeftCorner<4, 4>().inverse()};
+  solved.belief = {state.shared.head<kFlockScalars>(),
+                   covariance.topLeftCorner<kFlockScalars, kFlockScalars>().inverse()};
   return solved;
 }
 

@@ -91,14 +91,36 @@ TEST(SizeError, ViewsByHand) {
   const double l = std::log(30.0), mean = 2.0 / 3 * (1 + trunk + up);
   double away, across;
   const double bias = 0.03, ratio = -0.1;
-  error(Straight({0, 0, l}, {0, 0, 0.3}).data(), bias, ratio, std::log(trunk), std::log(up), &away);
-  error(Straight({0, 0, l}, {0.3, 0, 0}).data(), bias, ratio, std::log(trunk), std::log(up),
+  error(Straight({0, 0, l}, {0, 0, 0.3}).data(), bias, ratio, std::log(trunk), std::log(up), 1.0,
+        &away);
+  error(Straight({0, 0, l}, {0.3, 0, 0}).data(), bias, ratio, std::log(trunk), std::log(up), 1.0,
         &across);
   const double base = log_size - (std::log(0.7 / 30) + bias + ratio);
   EXPECT_NEAR(away, base - 0.5 * std::log((1 + up) / mean), 1e-9);
   // The small share of views along the vertical, see the certainty of the side.
   EXPECT_NEAR(across, base - 0.5 * std::log((trunk + up) / mean), 0.05);
   EXPECT_GT(across - away, 0.4);
+}
+
+// Flying across with the acceleration of gravity towards the camera, a body banks by 45 degrees:
+// its wings are seen foreshortened by the root of 2. Without a lean they point at the camera.
+TEST(SizeError, BodiesLeanIntoTurns) {
+  const double trunk = 0.25, up = 0.1, mean = 2.0 / 3 * (1 + trunk + up);
+  const SizeError error{.rate = 1,
+                        .softening = 1e-9,
+                        .log_size = 0,
+                        .log_wingspan = 0,
+                        .up_in_cam = Vec3d{0, -1, 0},
+                        .curve = {0, 0, -1}};
+  const auto seen = [&](double lean) {
+    double e;
+    error(Straight({0, 0, 0}, {0.3, 0, 0}).data(), 0.0, 0.0, std::log(trunk), std::log(up), lean,
+          &e);
+    return std::exp(-2 * e) * mean;  // Q without the mean
+  };
+  EXPECT_NEAR(seen(1), 0.5 + trunk + 0.5 * up, 0.01);
+  EXPECT_NEAR(seen(-1), 0.5 + trunk + 0.5 * up, 0.01);
+  EXPECT_NEAR(seen(0), trunk + up, 0.02);
 }
 
 // A body with three equal axes looks the same from everywhere (on the optical axis).
@@ -110,7 +132,7 @@ TEST(SizeError, ABallHasNoView) {
                         .up_in_cam = Vec3d{0, -1, 0}};
   for (const Vec3d& slope : {Vec3d{0.3, 0, 0}, Vec3d{0.1, -0.2, 0.1}, Vec3d{0, 0, -0.3}}) {
     double e;
-    error(Straight({0, 0, 2.5}, slope).data(), 0.0, 0.0, 0.0, 0.0, &e);
+    error(Straight({0, 0, 2.5}, slope).data(), 0.0, 0.0, 0.0, 0.0, 0.0, &e);
     EXPECT_NEAR(e, -3 + 2.5, 1e-9);
   }
 }
@@ -119,8 +141,10 @@ TEST(SizeError, WithoutGravityWingsAreAnywhereAcross) {
   SizeError error{
       .rate = 1, .softening = 1e-9, .log_size = 0, .log_wingspan = 0, .up_in_cam = std::nullopt};
   double away, across;
-  error(Straight({0, 0, 0}, {0, 0, 0.3}).data(), 0.0, 0.0, std::log(0.25), std::log(0.1), &away);
-  error(Straight({0, 0, 0}, {0.3, 0, 0}).data(), 0.0, 0.0, std::log(0.25), std::log(0.1), &across);
+  error(Straight({0, 0, 0}, {0, 0, 0.3}).data(), 0.0, 0.0, std::log(0.25), std::log(0.1), 0.0,
+        &away);
+  error(Straight({0, 0, 0}, {0.3, 0, 0}).data(), 0.0, 0.0, std::log(0.25), std::log(0.1), 0.0,
+        &across);
   const double mean = 2.0 / 3 * 1.35;
   EXPECT_NEAR(away, -0.5 * std::log(1.1 / mean), 1e-9);
   EXPECT_NEAR(across, -0.5 * std::log((0.5 * 1.1 + 0.25) / mean), 1e-9);
@@ -144,14 +168,16 @@ TEST(Errors, DerivativesMatchNumericDifferences) {
     SizeError size{
         .rate = 10, .softening = 0.01, .log_size = -4, .log_wingspan = -0.4, .up_in_cam = {}};
     if (gravity) size.up_in_cam = level.up_in_cam;
-    std::array<double, 13> with_size{};
+    if (gravity) size.curve = {0.3, -0.1, 0.4};
+    std::array<double, 14> with_size{};
     std::copy(path.begin(), path.end(), with_size.begin());
     with_size[9] = 0.02;
     with_size[10] = -0.1;
     with_size[11] = -1.1;
     with_size[12] = -1.9;
-    ExpectGradient<1, 13>([&](const auto* p, auto* e) { size(p, p[9], p[10], p[11], p[12], e); },
-                          with_size);
+    with_size[13] = 0.7;
+    ExpectGradient<1, 14>(
+        [&](const auto* p, auto* e) { size(p, p[9], p[10], p[11], p[12], p[13], e); }, with_size);
   }
 }
 

@@ -34,6 +34,9 @@ class BatchProblemTest : public testing::Test {
     model_ = MakeModel(options, knowledge_, segments_, guess, std::nullopt, flock_.fps);
     bird_ = StartBird(model_, knowledge_, guess, segments_.segments[1], flock_.fps, 1);
     shared_ = StartOfShared(model_);
+    for (std::size_t k = 0; k < bird_.curve.size(); ++k) {
+      bird_.curve[k] = {0.3 * std::sin(0.5 * static_cast<double>(k)), -0.2, 0.4};
+    }
     // Away from the start, where depths are piecewise linear, and from the joints of the losses.
     for (std::size_t k = 2; k < bird_.path.size(); k += 3) {
       bird_.path[k] += 0.02 * std::sin(0.9 * static_cast<double>(k));
@@ -124,14 +127,14 @@ void ExpectNumericDerivatives(const BatchModel& model, const Eigen::VectorXd& sh
 
 TEST_F(BatchProblemTest, PriorsOfTheFlockMatchNumericDifferences) {
   shared_ += Eigen::VectorXd::LinSpaced(shared_.size(), -0.3, 0.4);
-  ASSERT_GT(model_.turn_knots, 0);
+  ASSERT_GT(model_.turn.knots, 0);
   ExpectNumericDerivatives(model_, shared_);
-  // What another window has found takes the place of the first four.
-  Eigen::Matrix4d root;
-  root << 9, 0, 0, 0, 3, 7, 0, 0, -2, 1, 4, 0, 1, 2, -1, 3;
-  model_.belief = Belief{Eigen::Vector4d(2, -0.5, -1, -2), root * root.transpose()};
+  // What another window has found takes the place of the scalars' priors.
+  Belief::Matrix root;
+  root << 9, 0, 0, 0, 0, 3, 7, 0, 0, 0, -2, 1, 4, 0, 0, 1, 2, -1, 3, 0, 0, 1, 0, -1, 2;
+  model_.belief = Belief{Belief::Vector(2, -0.5, -1, -2, 0.6), root * root.transpose()};
   ExpectNumericDerivatives(model_, shared_);
-  shared_.head<4>() = model_.belief->mean;
+  shared_.head<kFlockScalars>() = model_.belief->mean;
   const double least = SharedPriors(model_, shared_, nullptr, nullptr);
   shared_[kSizeRatio] += 0.1;
   EXPECT_NEAR(SharedPriors(model_, shared_, nullptr, nullptr) - least, 0.5 * 0.01 * (9 + 49), 1e-9);
@@ -148,7 +151,7 @@ TEST_F(BatchProblemTest, TheImageKnowsNoScale) {
   bird_.own[kOwnLogSpeed] += shift;
   shared_[kFlockLogSpeed] += shift;
   shared_[kSizeRatio] += shift;
-  shared_.segment(kFirstDepthKnot, model_.depth_knots).array() += shift;
+  shared_.segment(model_.depth.first, model_.depth.size()).array() += shift;
   const std::vector<double> after = Residuals();
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t r = 0; r < before.size(); ++r) EXPECT_NEAR(before[r], after[r], 1e-9);
