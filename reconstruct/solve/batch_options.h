@@ -26,7 +26,7 @@ struct BatchOptions {
   double jump = 12;
   bool level_flight = true;
   bool shared_depth = true;
-  bool flock_turn = false;
+  bool flock_turn = true;
   bool estimate = true;
   double window = 12;
   double overlap = 3;
@@ -66,8 +66,7 @@ void Describe(Visitor& visit, BatchOptions& o) {
         "animals fly level on average (only where gravity is known)");
   visit("shared-depth", o.shared_depth, {}, "", "the flock is about as deep as it is wide");
   visit("flock-turn", o.flock_turn, {}, "",
-        "the flock has an acceleration in common, of a strength that the data tell (helps where "
-        "it flies past as one, not where it mills about)");
+        "the flock has an acceleration in common, of a strength that the data tell");
   visit("estimate", o.estimate, {}, "", "estimate the spreads from the data");
   visit("solve-window", o.window, {.low = 1, .high = 1e6}, "s",
         "longer sequences are solved in windows of about this length");

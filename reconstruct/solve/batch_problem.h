@@ -27,7 +27,7 @@ namespace flocklift::internal {
 inline constexpr int kFlockLogSpeed = 0, kSizeRatio = 1, kLogTrunk = 2, kLogUp = 3, kLean = 4;
 inline constexpr int kFlockScalars = 5;
 inline constexpr double kDepthKnotTime = 2;  // [s]
-inline constexpr double kTurnKnotTime = 1;   // [s]
+inline constexpr double kTurnKnotTime = 2;   // [s]
 // An animal's own unknowns.
 inline constexpr int kOwnLogSpeed = 0, kOwnSizeBias = 1, kOwnUnknowns = 2;
 
