@@ -196,7 +196,8 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
     result.trajectories = Assemble(camera, knowledge, segments, cobyla.paths, fps, false);
     return result;
   }
-  const BatchResult batch = SolveBatch(options.batch, knowledge, segments, fps, threads, progress);
+  const BatchResult batch =
+      SolveBatch(options.batch, knowledge, segments, fps, threads, progress, options.checkpoint);
   report.initial_cost = batch.report.initial_cost;
   report.final_cost = batch.report.final_cost;
   report.iterations = batch.report.iterations;

@@ -10,6 +10,7 @@
 #ifndef FLOCKLIFT_RECONSTRUCT_RECONSTRUCT_H_
 #define FLOCKLIFT_RECONSTRUCT_RECONSTRUCT_H_
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,7 @@ struct ReconstructOptions {
   BatchOptions batch;
   CobylaOptions cobyla;             // speed, near and far follow `knowledge` where it has them
   FirstDepths cobyla_first_depths;  // of the first frame, by id [m]
+  std::filesystem::path checkpoint = {};  // file that a killed batch goes on from; empty: none
 };
 
 struct ReconstructReport {

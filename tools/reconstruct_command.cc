@@ -121,6 +121,7 @@ void RunReconstruct(const ReconstructCommand& command, const CommonOptions& comm
   options.pitch_deg = command.pitch_deg;
   options.batch = command.batch;
   options.cobyla = command.cobyla;
+  options.checkpoint = common.out / ".reconstruct-windows";
 
   Stage stage("reconstruct", common);
   stage.options() = {{"method", command.method},   {"preset", command.preset},

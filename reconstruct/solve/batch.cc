@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "reconstruct/solve/window_solver.h"
+#include "reconstruct/solve/window_store.h"
 #include "reconstruct/solve/windows.h"
 #include "simulate/core/check.h"
 
@@ -90,8 +91,8 @@ void Merge(const BatchReport& window, double share, BatchReport* report) {
 }  // namespace
 
 BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
-                       const Segments& segments, double fps, int threads,
-                       const Progress& progress) {
+                       const Segments& segments, double fps, int threads, const Progress& progress,
+                       const std::filesystem::path& checkpoint) {
   BatchResult result;
   if (segments.segments.empty()) return result;
   Check(options.overlap < options.window, "solve-overlap must be less than solve-window");
@@ -111,14 +112,21 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
   const std::int64_t total = static_cast<std::int64_t>(windows.size()) * iterations;
   std::int64_t done = 0;
   std::optional<Belief> belief;
+  const bool is_long = windows.size() > 1 && !checkpoint.empty();
+  WindowStore store(is_long ? checkpoint : std::filesystem::path{},
+                    is_long ? FingerprintOf(options, knowledge, segments, fps) : 0);
   result.report.converged = true;
   for (const std::size_t w : OrderOf(known)) {
     const WindowPart part = PartOf(segments, windows[w], fps, first_frame);
     if (part.segments.segments.empty()) continue;
     std::int64_t here = 0;
-    const SolvedWindow solved =
-        SolveWindow(options, knowledge, part.segments, belief, part.first_frame, fps, threads,
-                    [&] { Report(progress, done + here++, total); });
+    std::optional<SolvedWindow> kept = store.Find(w);
+    if (!kept) {
+      kept = SolveWindow(options, knowledge, part.segments, belief, part.first_frame, fps, threads,
+                         [&] { Report(progress, done + here++, total); });
+      store.Keep(w, *kept);
+    }
+    const SolvedWindow& solved = *kept;
     done += iterations;
     if (!belief) {
       result.report.speed_against_size = solved.result.report.speed_against_size;
@@ -130,6 +138,7 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
     Blend(segments, windows[w], part, solved.result.paths, &result.paths);
     Merge(solved.result.report, part.segments.rows / rows, &result.report);
   }
+  store.Remove();
   Report(progress, total, total);
   return result;
 }

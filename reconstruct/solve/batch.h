@@ -12,7 +12,9 @@
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_H_
 
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reconstruct/initialize/segments.h"
@@ -50,9 +52,11 @@ struct BatchResult {
 };
 
 // Anchors and up_in_cam of `knowledge` are in the axes of the reference camera. Every sighting gets
-// a finite point, however little is known of it.
+// a finite point, however little is known of it. A long sequence keeps the windows it has solved in
+// the file `checkpoint` (empty: nowhere) until it is done: a killed run goes on to the same bytes.
 BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
-                       const Segments& segments, double fps, int threads, const Progress& progress);
+                       const Segments& segments, double fps, int threads, const Progress& progress,
+                       const std::filesystem::path& checkpoint = {});
 
 }  // namespace flocklift
 

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/solve/window_store.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "simulate/core/options.h"
+#include "simulate/core/state_archive.h"
+
+namespace flocklift::internal {
+namespace {
+
+namespace fs = std::filesystem;
+
+// FNV-1a, 64 bit (Fowler, Noll and Vo, 1991).
+class Hash {
+ public:
+  void AddBytes(const void* bytes, std::size_t size) {
+    const auto* at = static_cast<const unsigned char*>(bytes);
+    for (std::size_t k = 0; k < size; ++k) value_ = (value_ ^ at[k]) * 0x100000001b3;
+  }
+  template <typename T>
+  void Add(const T& value) {
+    static_assert(std::is_arithmetic_v<T>);
+    AddBytes(&value, sizeof value);
+  }
+  void Add(const Vec3d& v) {
+    for (const double x : {v.x, v.y, v.z}) Add(x);
+  }
+  void Add(const Uncertain& u) {
+    Add(u.mean);
+    Add(u.sd);
+  }
+  template <typename T>
+  void Add(const std::optional<T>& value) {
+    Add(value.has_value());
+    if (value) Add(*value);
+  }
+  // As a visitor of Describe.
+  template <typename T>
+  void operator()(std::string_view /*name*/, const T& value, Range /*range*/,
+                  std::string_view /*unit*/, std::string_view /*help*/) {
+    Add(value);
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+// Names are short; the rest is cut off.
+using Name = std::array<char, 48>;
+Name NameFrom(const std::string& text) {
+  Name name{};
+  text.copy(name.data(), name.size() - 1);
+  return name;
+}
+
+std::string BytesOf(const SolvedWindow& solved) {
+  StateWriter out;
+  out.Put(static_cast<std::uint64_t>(solved.result.paths.size()));
+  for (const SolvedPath& path : solved.result.paths) {
+    out.Put(static_cast<std::uint64_t>(path.size()));
+    out.Put(path);
+  }
+  const BatchReport& r = solved.result.report;
+  out.Put(std::array{r.initial_cost, r.final_cost, r.scale_sd});
+  out.Put(r.iterations);
+  out.Put(r.converged);
+  out.Put(std::array{r.flock_speed, r.size_ratio, r.lean, r.speed_against_size});
+  out.Put(static_cast<std::uint64_t>(r.spreads.size()));
+  for (const auto& [name, value] : r.spreads) {
+    out.Put(NameFrom(name));
+    out.Put(value);
+  }
+  out.Put(static_cast<std::uint64_t>(r.terms.size()));
+  for (const TermStatistics& term : r.terms) {
+    out.Put(NameFrom(term.name));
+    out.Put(term.count);
+    out.Put(std::array{term.rms, term.outliers});
+  }
+  for (const double x : solved.belief.mean) out.Put(x);
+  for (const double x : solved.belief.information.reshaped()) out.Put(x);
+  return out.bytes();
+}
+
+SolvedWindow WindowFrom(std::string_view bytes) {
+  StateReader in(bytes);
+  SolvedWindow solved;
+  const auto size = [&in] {
+    std::uint64_t count = 0;
+    in.Take(&count);
+    return static_cast<std::size_t>(count);
+  };
+  solved.result.paths.resize(size());
+  for (SolvedPath& path : solved.result.paths) {
+    path.resize(size());
+    in.Take(&path);
+  }
+  BatchReport& r = solved.result.report;
+  for (double* x : {&r.initial_cost, &r.final_cost, &r.scale_sd}) in.Take(x);
+  in.Take(&r.iterations);
+  in.Take(&r.converged);
+  for (Uncertain* u : {&r.flock_speed, &r.size_ratio, &r.lean, &r.speed_against_size}) in.Take(u);
+  Name name{};
+  r.spreads.resize(size());
+  for (auto& [text, value] : r.spreads) {
+    in.Take(&name);
+    text = name.data();
+    in.Take(&value);
+  }
+  r.terms.resize(size());
+  for (TermStatistics& term : r.terms) {
+    in.Take(&name);
+    term.name = name.data();
+    in.Take(&term.count);
+    in.Take(&term.rms);
+    in.Take(&term.outliers);
+  }
+  for (double& x : solved.belief.mean) in.Take(&x);
+  for (double& x : solved.belief.information.reshaped()) in.Take(&x);
+  return solved;
+}
+
+}  // namespace
+
+std::uint64_t FingerprintOf(const BatchOptions& options, const Knowledge& knowledge,
+                            const Segments& segments, double fps) {
+  Hash hash;
+  const std::string_view version = FLOCKLIFT_VERSION;
+  hash.AddBytes(version.data(), version.size());
+  hash.Add(fps);
+  BatchOptions described = options;
+  Describe(hash, described);
+  hash.Add(knowledge.speed);
+  hash.Add(knowledge.wingspan);
+  hash.Add(knowledge.near);
+  hash.Add(knowledge.far);
+  hash.Add(knowledge.use_size);
+  hash.Add(knowledge.up_in_cam);
+  for (const Anchor& anchor : knowledge.anchors) {
+    hash.Add(anchor.frame);
+    hash.Add(anchor.id);
+    hash.Add(anchor.position);
+    hash.Add(anchor.sd);
+  }
+  for (const Segment& segment : segments.segments) {
+    hash.Add(segment.id);
+    for (const Sighting& s : segment.sightings) {
+      hash.Add(s.frame);
+      hash.Add(s.ray.x);
+      hash.Add(s.ray.y);
+      hash.Add(s.ray_sd);
+      hash.Add(s.log_size);
+    }
+  }
+  return hash.value();
+}
+
+// The file: the fingerprint, then for each window its number, the size of its bytes, and these.
+WindowStore::WindowStore(fs::path path, std::uint64_t fingerprint) : path_(std::move(path)) {
+  if (path_.empty()) return;
+  std::uint64_t head = 0;
+  {
+    std::ifstream file(path_, std::ios::binary);
+    file.read(reinterpret_cast<char*>(&head), sizeof head);
+    if (file && head == fingerprint) {
+      std::error_code error;
+      const std::uintmax_t size = fs::file_size(path_, error);
+      end_ = sizeof head;
+      std::array<std::uint64_t, 2> record{};
+      while (file.read(reinterpret_cast<char*>(record.data()), sizeof record)) {
+        const std::uint64_t begin = end_ + sizeof record;
+        if (begin + record[1] > size) break;
+        places_.push_back({record[0], begin, record[1]});
+        end_ = begin + record[1];
+        file.seekg(static_cast<std::streamoff>(end_));
+      }
+    }
+  }
+  if (end_ > 0) return;
+  if (path_.has_parent_path()) fs::create_directories(path_.parent_path());
+  std::ofstream file(path_, std::ios::binary | std::ios::trunc);
+  file.write(reinterpret_cast<const char*>(&fingerprint), sizeof fingerprint);
+  file.close();
+  if (!file) throw std::runtime_error(path_.string() + " cannot be written");
+  end_ = sizeof fingerprint;
+}
+
+std::optional<SolvedWindow> WindowStore::Find(std::size_t window) {
+  const auto place = std::find_if(places_.begin(), places_.end(),
+                                  [window](const Place& p) { return p.window == window; });
+  if (place == places_.end()) return std::nullopt;
+  std::string bytes(place->size, '\0');
+  std::ifstream file(path_, std::ios::binary);
+  file.seekg(static_cast<std::streamoff>(place->begin));
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file) throw std::runtime_error(path_.string() + " cannot be read");
+  return WindowFrom(bytes);
+}
+
+void WindowStore::Keep(std::size_t window, const SolvedWindow& solved) {
+  if (path_.empty()) return;
+  const std::string bytes = BytesOf(solved);
+  const std::array<std::uint64_t, 2> record = {window, bytes.size()};
+  fs::resize_file(path_, end_);  // a part of a window that a kill left behind
+  std::ofstream file(path_, std::ios::binary | std::ios::app);
+  file.write(reinterpret_cast<const char*>(record.data()), sizeof record);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) throw std::runtime_error(path_.string() + " cannot be written");
+  places_.push_back({window, end_ + sizeof record, bytes.size()});
+  end_ += sizeof record + bytes.size();
+}
+
+void WindowStore::Remove() {
+  std::error_code ignored;
+  if (!path_.empty()) fs::remove(path_, ignored);
+}
+
+}  // namespace flocklift::internal
