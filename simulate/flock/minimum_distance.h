@@ -9,13 +9,12 @@
 // result does not depend on threads. Animals in the very same place part along x. One pass, as
 // published; in a crush some are still too near afterwards.
 //
-// A flock that fills its bounding box more or less goes into a grid (simulate/flock/near_grid.h).
-// In one that is scattered, nearly all animals have nobody near. A hashed table with a byte for
-// every cell of a lattice tells most of them from the rest: cells are wider than twice the largest
-// d_ij, so an animal's own cell and the nearer neighbours, eight in all, hold everybody who may be
-// too near. Only those with company go into a second, exact table. Linear in animals, whatever the
-// extent of the scene, and fastest when neighbours in space are neighbours in memory. One room far
-// larger than the others makes it slow.
+// Where nearly all animals have nobody near, a bit for every cell of a lattice tells most of them
+// from the rest (simulate/flock/company.h), and only those with company are looked at. Whoever is
+// looked at goes into a grid (simulate/flock/near_grid.h) or, where the flock is so scattered that
+// its cells would hold crowds, into a hashed table. Linear in animals, whatever the extent of the
+// scene, and fastest when neighbours in space are neighbours in memory. One room far larger than
+// the others makes it slow.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_MINIMUM_DISTANCE_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_MINIMUM_DISTANCE_H_
@@ -26,6 +25,8 @@
 
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/vec3.h"
+#include "simulate/flock/company.h"
+#include "simulate/flock/crowd.h"
 #include "simulate/flock/near_grid.h"
 
 namespace flocklift {
@@ -37,29 +38,20 @@ class MinimumDistance {
   std::int64_t Enforce(std::span<const Crowd<T>> crowds, ThreadPool* pool);
 
  private:
-  struct Place {
-    T x, y, z, room;
-  };
-
+  void Gather(std::span<const Crowd<T>> crowds);
+  void PutBack(std::span<const Crowd<T>> crowds) const;
+  Crowd<T> Close();
   std::int64_t EnforceInGrid(std::span<const Crowd<T>> crowds, ThreadPool* pool);
-  void Gather(std::span<const Crowd<T>> crowds, ThreadPool* pool);
-  void NumberCells(std::span<const Crowd<T>> crowds, T per_cell, T shift, ThreadPool* pool);
-  void Enter(ThreadPool* pool);
-  bool HasCompany(std::uint32_t lowest) const;
-  void FindCompany(ThreadPool* pool);
-  void Chain(T per_cell);
+  std::int64_t EnforceInTable(ThreadPool* pool);
+  void Chain();
   Vec3<T> Push(std::size_t self, bool* touched) const;
 
   NearGrid<T> grid_;
-  std::vector<Place> places_;                        // of all animals
-  std::vector<std::uint32_t> cell_;                  // of each animal, before it is hashed
-  std::vector<std::uint8_t> entries_;                // of the first table: who is in each cell
-  std::vector<std::vector<std::uint32_t>> company_;  // those with company, by chunk of animals
-  std::vector<std::uint32_t> crowded_;               // the same, all
-  std::vector<Place> close_;                         // of crowded_
-  std::vector<std::int32_t> head_, next_;            // chains of crowded_ by bucket; -1: the end
-  std::vector<Vec3<T>> push_;                        // of crowded_ [m]
-  std::vector<std::uint8_t> touched_;                // of crowded_, or of all animals in the grid
+  Company<T> company_;
+  std::vector<T> x_, y_, z_, room_;        // of those with company
+  std::vector<std::int32_t> head_, next_;  // chains of them by bucket; -1: the end
+  std::vector<Vec3<T>> push_;              // of them [m]
+  std::vector<std::uint8_t> touched_;      // of them, or of all animals in the grid
 };
 
 extern template class MinimumDistance<float>;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "simulate/flock/kernels/swarm_kernel.h"
@@ -13,14 +12,12 @@
 namespace flocklift {
 namespace {
 
-constexpr std::int64_t kGrain = 2048;       // animals a chunk of work
 constexpr double kCellPerReach = 1.01;      // round-off
 constexpr double kCellsPerAnimal = 2;       // at most
 constexpr double kRimSlack = 0.01;          // cells; round-off
 constexpr double kWide = 2;                 // reaches; cells up to here never hold too many
 constexpr std::uint64_t kMostCompany = 12;  // animals in the cell of an animal, on average
 constexpr std::size_t kPadding = 16;
-constexpr std::size_t kLanes = 8;
 
 // The four rows that follow a cell's own, relative to it.
 struct Rows {
@@ -33,28 +30,6 @@ struct Rows {
   }
 };
 
-// Least and largest; what is not a number does not count.
-template <typename T>
-void Widen(const T* v, std::size_t first, std::size_t last, T* least, T* most) {
-  T low[kLanes], high[kLanes];
-  std::fill_n(low, kLanes, *least);
-  std::fill_n(high, kLanes, *most);
-  std::size_t k = first;
-  for (; k + kLanes <= last; k += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const T value = v[k + lane];
-      low[lane] = value < low[lane] ? value : low[lane];
-      high[lane] = value > high[lane] ? value : high[lane];
-    }
-  }
-  for (; k < last; ++k) {
-    low[0] = v[k] < low[0] ? v[k] : low[0];
-    high[0] = v[k] > high[0] ? v[k] : high[0];
-  }
-  *least = *std::min_element(low, low + kLanes);
-  *most = *std::max_element(high, high + kLanes);
-}
-
 // 0 .. cells - 1; what is not a number is in the first.
 template <typename T>
 std::uint32_t Along(T u, T last) {
@@ -65,35 +40,12 @@ std::uint32_t Along(T u, T last) {
 }  // namespace
 
 template <typename T>
-bool NearGrid<T>::ChooseCells(std::span<const Crowd<T>> crowds, T reach, ThreadPool* pool) {
-  const T far = std::numeric_limits<T>::max();
-  struct Box {
-    Vec3<T> low, high;
-  };
-  const Box nobody{{far, far, far}, {-far, -far, -far}};
-  Box all = nobody;
-  for (const Crowd<T>& crowd : crowds) {
-    std::vector<Box> boxes((crowd.size + kGrain - 1) / kGrain, nobody);
-    pool->For(0, static_cast<std::int64_t>(crowd.size), kGrain,
-              [&](std::int64_t first, std::int64_t last) {
-                Box& box = boxes[static_cast<std::size_t>(first / kGrain)];
-                const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(last);
-                Widen(crowd.x, a, b, &box.low.x, &box.high.x);
-                Widen(crowd.y, a, b, &box.low.y, &box.high.y);
-                Widen(crowd.z, a, b, &box.low.z, &box.high.z);
-              });
-    for (const Box& box : boxes) {
-      all.low = {std::min(all.low.x, box.low.x), std::min(all.low.y, box.low.y),
-                 std::min(all.low.z, box.low.z)};
-      all.high = {std::max(all.high.x, box.high.x), std::max(all.high.y, box.high.y),
-                  std::max(all.high.z, box.high.z)};
-    }
-  }
+bool NearGrid<T>::ChooseCells(const CrowdBox<T>& box, T reach) {
   const auto extent = [](T low, T high) {
     return static_cast<double>(high) - static_cast<double>(low);
   };
-  const double x = extent(all.low.x, all.high.x), y = extent(all.low.y, all.high.y),
-               z = extent(all.low.z, all.high.z);
+  const double x = extent(box.low.x, box.high.x), y = extent(box.low.y, box.high.y),
+               z = extent(box.low.z, box.high.z);
   // Beyond this, places are too coarse for cells.
   const double limit = 2e4 * static_cast<double>(reach);
   if (!(x >= 0 && y >= 0 && z >= 0 && x < limit && y < limit && z < limit)) return false;
@@ -106,7 +58,7 @@ bool NearGrid<T>::ChooseCells(std::span<const Crowd<T>> crowds, T reach, ThreadP
   // In wide cells few are so far up that their company may be in the rows that follow; where many
   // are, asking takes longer than looking.
   rim_ = static_cast<T>(wide_ ? 1 - static_cast<double>(reach) / edge - kRimSlack : -1);
-  low_ = all.low;
+  low_ = box.low;
   per_cell_ = static_cast<T>(1 / edge);
   nx_ = static_cast<int>(cells(x));
   ny_ = static_cast<int>(cells(y));
@@ -124,7 +76,7 @@ void NearGrid<T>::NumberCells(std::span<const Crowd<T>> crowds, ThreadPool* pool
   const T x1 = static_cast<T>(nx_ - 1), y1 = static_cast<T>(ny_ - 1), z1 = static_cast<T>(nz_ - 1);
   for (const Crowd<T>& crowd : crowds) {
     pool->For(
-        0, static_cast<std::int64_t>(crowd.size), kGrain,
+        0, static_cast<std::int64_t>(crowd.size), kCrowdGrain,
         [&, low = low_, per_cell = per_cell_, rim = rim_](std::int64_t first, std::int64_t last) {
           const T *const x = crowd.x, *const y = crowd.y, *const z = crowd.z;
           for (std::int64_t k = first; k < last; ++k) {
@@ -163,10 +115,11 @@ bool NearGrid<T>::Count() {
 }
 
 template <typename T>
-bool NearGrid<T>::Sort(std::span<const Crowd<T>> crowds, T reach, ThreadPool* pool) {
+bool NearGrid<T>::Sort(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, T reach,
+                       ThreadPool* pool) {
   n_ = 0;
   for (const Crowd<T>& crowd : crowds) n_ += crowd.size;
-  if (!ChooseCells(crowds, reach, pool)) return false;
+  if (!ChooseCells(box, reach)) return false;
   NumberCells(crowds, pool);
   if (!Count()) return false;
   for (std::vector<T>* column : {&x_, &y_, &z_, &room_}) column->resize(n_ + kPadding);
@@ -174,7 +127,7 @@ bool NearGrid<T>::Sort(std::span<const Crowd<T>> crowds, T reach, ThreadPool* po
   animal_.resize(n_);
   std::size_t before = 0;
   for (const Crowd<T>& crowd : crowds) {
-    pool->For(0, static_cast<std::int64_t>(crowd.size), kGrain,
+    pool->For(0, static_cast<std::int64_t>(crowd.size), kCrowdGrain,
               [&](std::int64_t first, std::int64_t last) {
                 for (std::int64_t k = first; k < last; ++k) {
                   const std::size_t animal = before + static_cast<std::size_t>(k);
@@ -183,7 +136,7 @@ bool NearGrid<T>::Sort(std::span<const Crowd<T>> crowds, T reach, ThreadPool* po
                   x_[to] = crowd.x[k];
                   y_[to] = crowd.y[k];
                   z_[to] = crowd.z[k];
-                  room_[to] = crowd.body != nullptr ? crowd.room + crowd.body[k] : crowd.room;
+                  room_[to] = crowd.RoomOf(static_cast<std::size_t>(k));
                   place_[to] = cell;
                   animal_[to] = static_cast<std::uint32_t>(animal);
                 }
@@ -212,30 +165,31 @@ void NearGrid<T>::AppendPairs(std::uint32_t first, std::vector<Pair>* pairs) con
 
 template <typename T>
 void NearGrid<T>::FindPairs(ThreadPool* pool) {
-  const std::size_t chunks = (n_ + kGrain - 1) / kGrain;
+  const std::size_t chunks = (n_ + kCrowdGrain - 1) / kCrowdGrain;
   has_.resize(chunks);
   pairs_.resize(chunks);
-  pool->For(0, static_cast<std::int64_t>(n_), kGrain, [&](std::int64_t first, std::int64_t last) {
-    const auto a = static_cast<std::uint32_t>(first), b = static_cast<std::uint32_t>(last);
-    std::vector<Pair>& pairs = pairs_[a / kGrain];
-    pairs.clear();
-    if constexpr (std::is_same_v<T, float>) {
-      std::vector<std::uint32_t>& has = has_[a / kGrain];
-      has.resize(kGrain);
-      const Rows rows(nx_, ny_);
-      const NearJob job{x_.data(),
-                        y_.data(),
-                        z_.data(),
-                        room_.data(),
-                        place_.data(),
-                        start_.data(),
-                        {rows.offset[0], rows.offset[1], rows.offset[2], rows.offset[3]}};
-      const std::uint32_t count = FastestSwarmKernel().near(job, a, b, has.data());
-      for (std::uint32_t k = 0; k < count; ++k) AppendPairs(has[k], &pairs);
-    } else {
-      for (std::uint32_t k = a; k < b; ++k) AppendPairs(k, &pairs);
-    }
-  });
+  pool->For(
+      0, static_cast<std::int64_t>(n_), kCrowdGrain, [&](std::int64_t first, std::int64_t last) {
+        const auto a = static_cast<std::uint32_t>(first), b = static_cast<std::uint32_t>(last);
+        std::vector<Pair>& pairs = pairs_[a / kCrowdGrain];
+        pairs.clear();
+        if constexpr (std::is_same_v<T, float>) {
+          std::vector<std::uint32_t>& has = has_[a / kCrowdGrain];
+          has.resize(kCrowdGrain);
+          const Rows rows(nx_, ny_);
+          const NearJob job{x_.data(),
+                            y_.data(),
+                            z_.data(),
+                            room_.data(),
+                            place_.data(),
+                            start_.data(),
+                            {rows.offset[0], rows.offset[1], rows.offset[2], rows.offset[3]}};
+          const std::uint32_t count = FastestSwarmKernel().near(job, a, b, has.data());
+          for (std::uint32_t k = 0; k < count; ++k) AppendPairs(has[k], &pairs);
+        } else {
+          for (std::uint32_t k = a; k < b; ++k) AppendPairs(k, &pairs);
+        }
+      });
 }
 
 template class NearGrid<float>;

@@ -19,17 +19,9 @@
 
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/vec3.h"
+#include "simulate/flock/crowd.h"
 
 namespace flocklift {
-
-// The animals of one species: where they are, and how much room each keeps.
-template <typename T>
-struct Crowd {
-  std::size_t size = 0;
-  T *x = nullptr, *y = nullptr, *z = nullptr;  // [m], moved
-  T room = 0;                                  // half of d_min [m]
-  const T* body = nullptr;                     // radii, each added to `room`; null: 0 [m]
-};
 
 template <typename T>
 class NearGrid {
@@ -41,9 +33,9 @@ class NearGrid {
     T squared, distance;  // of the way [m^2], and how far apart they have to be [m]
   };
 
-  // Sorts the animals. `reach` is the largest distance asked for, above 0 [m]. False if the flock
-  // does not suit a grid.
-  bool Sort(std::span<const Crowd<T>> crowds, T reach, ThreadPool* pool);
+  // Sorts the animals in the box around them. `reach` is the largest distance asked for, above 0
+  // [m]. False if the flock does not suit a grid.
+  bool Sort(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, T reach, ThreadPool* pool);
   // The pairs nearer than the sum of their rooms, in an order that depends on the positions alone.
   void FindPairs(ThreadPool* pool);
 
@@ -53,7 +45,7 @@ class NearGrid {
   std::uint32_t Animal(std::uint32_t place) const { return animal_[place]; }
 
  private:
-  bool ChooseCells(std::span<const Crowd<T>> crowds, T reach, ThreadPool* pool);
+  bool ChooseCells(const CrowdBox<T>& box, T reach);
   void NumberCells(std::span<const Crowd<T>> crowds, ThreadPool* pool);
   bool Count();
   void AppendPairs(std::uint32_t first, std::vector<Pair>* pairs) const;

@@ -72,7 +72,7 @@ class SwarmMotion final : public Motion<T> {
   }
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
-    if (around.step % kSortEvery == 0) herd->SortBy(p_.cell);
+    if (around.step % kSortEvery == 0) herd->SortBy(p_.cell, pool);
     FollowGoals(around);
     if (guide_ && p_.crowding > 0) LookAtCrowds(around, *herd);
     noise_ = NoiseTermsAt(

@@ -66,6 +66,11 @@ void LerpCorners(const std::int8_t* cell, float u, float v, float w, float* four
   _mm_storeu_ps(four, _mm_add_ps(low, _mm_mul_ps(_mm_set1_ps(u), _mm_sub_ps(high, low))));
 }
 
+xsimd::batch<std::uint32_t, FLOCKLIFT_SWARM_ARCH> Gather(
+    const std::uint8_t* from, const xsimd::batch<std::uint32_t, FLOCKLIFT_SWARM_ARCH>& at) {
+  return _mm256_i32gather_epi32(reinterpret_cast<const int*>(from), at.data, 1);
+}
+
 void Prefetch(const void* at) { _mm_prefetch(static_cast<const char*>(at), _MM_HINT_T0); }
 
 }  // namespace

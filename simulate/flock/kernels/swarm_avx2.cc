@@ -19,6 +19,11 @@ void CellKernelAvx2(const CellJob& job, std::uint32_t first, std::uint32_t last)
   CellNumbers<xsimd::batch<float, Avx2>>(job, first, last);
 }
 
+std::uint32_t CompanyKernelAvx2(const CompanyJob& job, std::uint32_t first, std::uint32_t last,
+                                std::uint32_t* found, std::uint32_t* lowest) {
+  return FindCompany<xsimd::batch<float, Avx2>>(job, first, last, found, lowest);
+}
+
 std::uint32_t NearKernelAvx2(const NearJob& job, std::uint32_t first, std::uint32_t last,
                              std::uint32_t* found) {
   return FindNear<xsimd::batch<float, Avx2>>(job, first, last, found);

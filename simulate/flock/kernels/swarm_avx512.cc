@@ -19,6 +19,11 @@ void CellKernelAvx512(const CellJob& job, std::uint32_t first, std::uint32_t las
   CellNumbers<xsimd::batch<float, Avx512Vl>>(job, first, last);
 }
 
+std::uint32_t CompanyKernelAvx512(const CompanyJob& job, std::uint32_t first, std::uint32_t last,
+                                  std::uint32_t* found, std::uint32_t* lowest) {
+  return FindCompany<xsimd::batch<float, Avx512Vl>>(job, first, last, found, lowest);
+}
+
 std::uint32_t NearKernelAvx512(const NearJob& job, std::uint32_t first, std::uint32_t last,
                                std::uint32_t* found) {
   return FindNear<xsimd::batch<float, Avx512Vl>>(job, first, last, found);

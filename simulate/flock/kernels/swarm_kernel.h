@@ -57,6 +57,20 @@ struct CellJob {
 // Does the points first .. last - 1, both multiples of 8.
 using CellKernel = void (*)(const CellJob& job, std::uint32_t first, std::uint32_t last);
 
+// Of cells so numbered, two along each axis from the lowest on, c + {0, 1} + {0, across_y} +
+// {0, across_z}: where is more than one bit set? The bit of a cell is that of its number & `mask`,
+// eight a byte.
+struct CompanyJob {
+  CellJob cells;             // of the lowest; `cell` is not written
+  const std::uint8_t* bits;  // the first byte again at the end, and 3 more may be read
+  std::uint32_t mask;        // a power of two less 1
+};
+// Writes those among the points first .. last - 1, both multiples of 8, to `found`, in order, and
+// the numbers of their lowest cells to `lowest`; returns how many. Both have room for all.
+using CompanyKernel = std::uint32_t (*)(const CompanyJob& job, std::uint32_t first,
+                                        std::uint32_t last, std::uint32_t* found,
+                                        std::uint32_t* lowest);
+
 // Animals sorted by the cells of a grid (simulate/flock/near_grid.h): which of them are nearer to
 // somebody behind them than the sum of their rooms. Each is tested against the rest of its own cell
 // and the next one, and, if it is at the rim of its cell, in each of four rows against three cells
@@ -78,6 +92,7 @@ struct SwarmKernelVariant {
   bool (*supported)();  // by this machine
   SwarmKernel kernel;
   CellKernel cells;
+  CompanyKernel company;
   NearKernel near;
 };
 
@@ -87,14 +102,20 @@ extern const SwarmKernelVariant kSwarmKernels[kSwarmKernelVariants];
 
 void SwarmKernelSse2(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
 void CellKernelSse2(const CellJob& job, std::uint32_t first, std::uint32_t last);
+std::uint32_t CompanyKernelSse2(const CompanyJob& job, std::uint32_t first, std::uint32_t last,
+                                std::uint32_t* found, std::uint32_t* lowest);
 std::uint32_t NearKernelSse2(const NearJob& job, std::uint32_t first, std::uint32_t last,
                              std::uint32_t* found);
 void SwarmKernelAvx2(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
 void CellKernelAvx2(const CellJob& job, std::uint32_t first, std::uint32_t last);
+std::uint32_t CompanyKernelAvx2(const CompanyJob& job, std::uint32_t first, std::uint32_t last,
+                                std::uint32_t* found, std::uint32_t* lowest);
 std::uint32_t NearKernelAvx2(const NearJob& job, std::uint32_t first, std::uint32_t last,
                              std::uint32_t* found);
 void SwarmKernelAvx512(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
 void CellKernelAvx512(const CellJob& job, std::uint32_t first, std::uint32_t last);
+std::uint32_t CompanyKernelAvx512(const CompanyJob& job, std::uint32_t first, std::uint32_t last,
+                                  std::uint32_t* found, std::uint32_t* lowest);
 std::uint32_t NearKernelAvx512(const NearJob& job, std::uint32_t first, std::uint32_t last,
                                std::uint32_t* found);
 

@@ -4,6 +4,7 @@
 // The body of every variant of the swarm kernel; included once by each, after it has defined
 //   void LerpCorners(const int8_t* cell, float u, float v, float w, float* four)
 //   void Prefetch(const void*)
+//   batch<uint32_t> Gather(const uint8_t* from, batch<uint32_t> at)   four bytes from from + at on
 // the first blends the numbers of a cell's corners: along z, then y, then x, each a + t (b - a).
 // Everything lives in an anonymous namespace (boids_kernel.h says why).
 
@@ -114,18 +115,50 @@ void SwarmVelocities(const SwarmJob& job, std::uint32_t first, std::uint32_t las
 }
 
 template <typename Pack>
-void CellNumbers(const CellJob& job, std::uint32_t first, std::uint32_t last) {
+typename Lattice<Pack>::Bits CellNumber(const CellJob& job, std::uint32_t k) {
   using Lane = Lattice<Pack>;
   const Pack per_cell(job.per_cell), shift(job.shift), far(1073741824.0f);
   const auto cell = [&](const float* at) {  // beyond `far` all are in one
     const Pack u = xsimd::floor(Pack::load_unaligned(at) * per_cell - shift);
     return Lane::Cell(xsimd::min(far, xsimd::max(Pack(-1073741824.0f), u)));
   };
+  return cell(job.x + k) + cell(job.y + k) * typename Lane::Bits(job.across_y) +
+         cell(job.z + k) * typename Lane::Bits(job.across_z);
+}
+
+template <typename Pack>
+void CellNumbers(const CellJob& job, std::uint32_t first, std::uint32_t last) {
   for (std::uint32_t k = first; k < last; k += Pack::size) {
-    const auto number = cell(job.x + k) + cell(job.y + k) * typename Lane::Bits(job.across_y) +
-                        cell(job.z + k) * typename Lane::Bits(job.across_z);
-    number.store_unaligned(job.cell + k);
+    CellNumber<Pack>(job, k).store_unaligned(job.cell + k);
   }
+}
+
+template <typename Pack>
+std::uint32_t FindCompany(const CompanyJob& job, std::uint32_t first, std::uint32_t last,
+                          std::uint32_t* found, std::uint32_t* lowest) {
+  using Bits = typename Lattice<Pack>::Bits;
+  const Bits one(1U), seven(7U), three(3U), mask(job.mask);
+  std::uint32_t count = 0;
+  for (std::uint32_t k = first; k < last; k += Pack::size) {
+    const Bits at = CellNumber<Pack>(job.cells, k);
+    const auto two = [&](std::uint32_t across) -> Bits {  // neighbours along x
+      const Bits bit = (at + Bits(across)) & mask;
+      return (Gather(job.bits, bit >> 3) >> (bit & seven)) & three;
+    };
+    const std::uint32_t y = job.cells.across_y, z = job.cells.across_z;
+    const Bits eight = two(0) | two(y) << 2 | two(z) << 4 | two(y + z) << 6;
+    const Bits further = eight & (eight - one);  // bits but the lowest
+    if (!xsimd::any(further != Bits(0U))) continue;
+    alignas(64) std::uint32_t has[Pack::size], numbers[Pack::size];
+    further.store_aligned(has);
+    at.store_aligned(numbers);
+    for (std::uint32_t lane = 0; lane < Pack::size; ++lane) {
+      found[count] = k + lane;
+      lowest[count] = numbers[lane];
+      count += has[lane] != 0 ? 1 : 0;
+    }
+  }
+  return count;
 }
 
 template <typename Pack>

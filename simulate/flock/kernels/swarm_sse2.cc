@@ -4,6 +4,7 @@
 #include <emmintrin.h>
 
 #include <cstdint>
+#include <cstring>
 #include <utility>
 #include <xsimd/xsimd.hpp>
 
@@ -36,6 +37,14 @@ void LerpCorners(const std::int8_t* cell, float u, float v, float w, float* four
                                LerpFour(near.second, far.second, ty), _mm_set1_ps(u)));
 }
 
+xsimd::batch<std::uint32_t, xsimd::sse2> Gather(
+    const std::uint8_t* from, const xsimd::batch<std::uint32_t, xsimd::sse2>& at) {
+  alignas(16) std::uint32_t lanes[4];
+  at.store_aligned(lanes);
+  for (std::uint32_t& lane : lanes) std::memcpy(&lane, from + lane, sizeof lane);
+  return xsimd::batch<std::uint32_t, xsimd::sse2>::load_aligned(lanes);
+}
+
 void Prefetch(const void* at) { _mm_prefetch(static_cast<const char*>(at), _MM_HINT_T0); }
 
 }  // namespace
@@ -51,6 +60,11 @@ void SwarmKernelSse2(const SwarmJob& job, std::uint32_t first, std::uint32_t las
 
 void CellKernelSse2(const CellJob& job, std::uint32_t first, std::uint32_t last) {
   CellNumbers<xsimd::batch<float, xsimd::sse2>>(job, first, last);
+}
+
+std::uint32_t CompanyKernelSse2(const CompanyJob& job, std::uint32_t first, std::uint32_t last,
+                                std::uint32_t* found, std::uint32_t* lowest) {
+  return FindCompany<xsimd::batch<float, xsimd::sse2>>(job, first, last, found, lowest);
 }
 
 std::uint32_t NearKernelSse2(const NearJob& job, std::uint32_t first, std::uint32_t last,

@@ -133,6 +133,49 @@ TEST(CellKernel, EveryVariantNumbersTheSameCells) {
   }
 }
 
+TEST(CompanyKernel, EveryVariantSeesTheSameBits) {
+  const Animals animals = MakeAnimals();
+  constexpr std::uint32_t kPoints = kAnimals / 8 * 8, kMask = 1023, kAcrossY = 37, kAcrossZ = 990;
+  std::vector<std::uint8_t> bits((kMask + 1) / 8 + 4);
+  Rng rng(3);
+  for (std::uint32_t k = 0; k <= kMask; ++k) {
+    if (rng.Below(8) == 0) bits[k / 8] |= static_cast<std::uint8_t>(1U << k % 8);
+  }
+  bits[(kMask + 1) / 8] = bits[0];
+  std::vector<std::uint32_t> expected, expected_lowest;
+  for (std::uint32_t k = 0; k < kPoints; ++k) {
+    const auto cell = [](float x) {
+      return static_cast<std::uint32_t>(static_cast<int>(std::floor(x * 2.5F - 0.5F)));
+    };
+    const std::uint32_t lowest =
+        cell(animals.x[k]) + cell(animals.y[k]) * kAcrossY + cell(animals.z[k]) * kAcrossZ;
+    int seen = 0;
+    for (std::uint32_t corner = 0; corner < 8; ++corner) {
+      const std::uint32_t bit =
+          (lowest + (corner & 1) + (corner >> 1 & 1) * kAcrossY + (corner >> 2) * kAcrossZ) & kMask;
+      seen += bits[bit / 8] >> bit % 8 & 1;
+    }
+    if (seen < 2) continue;
+    expected.push_back(k);
+    expected_lowest.push_back(lowest);
+  }
+  EXPECT_GT(expected.size(), 100);
+  EXPECT_LT(expected.size(), kPoints - 100);
+  for (const SwarmKernelVariant& variant : kSwarmKernels) {
+    if (!variant.supported()) continue;
+    std::vector<std::uint32_t> found(kPoints), lowest(kPoints);
+    const CompanyJob job{{animals.x.data(), animals.y.data(), animals.z.data(), 2.5F, 0.5F,
+                          kAcrossY, kAcrossZ, nullptr},
+                         bits.data(),
+                         kMask};
+    const std::uint32_t count = variant.company(job, 0, kPoints, found.data(), lowest.data());
+    found.resize(count);
+    lowest.resize(count);
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(lowest, expected_lowest);
+  }
+}
+
 TEST(Guide, IsLinearWithinItsCellsAndConstantBeyond) {
   Cells cells = MakeCells(3, 2, 4);
   // Whole numbers at the corners, a metre being two cells.

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The animals of one species as minimum-distance enforcement sees them, and the box around those of
+// several.
+
+#ifndef FLOCKLIFT_SIMULATE_FLOCK_CROWD_H_
+#define FLOCKLIFT_SIMULATE_FLOCK_CROWD_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "simulate/core/parallel_for.h"
+#include "simulate/core/vec3.h"
+
+namespace flocklift {
+
+inline constexpr std::int64_t kCrowdGrain = 2048;  // animals a chunk of work
+
+// Where they are, and how much room each keeps.
+template <typename T>
+struct Crowd {
+  std::size_t size = 0;
+  T *x = nullptr, *y = nullptr, *z = nullptr;  // [m], moved
+  T room = 0;                                  // half of d_min [m]
+  const T* body = nullptr;                     // radii, each added to `room`; null: 0 [m]
+
+  T RoomOf(std::size_t k) const { return body != nullptr ? room + body[k] : room; }
+};
+
+template <typename T>
+struct CrowdBox {
+  Vec3<T> low, high;  // [m]
+};
+
+// What is not a number does not count; around nobody, high is below low.
+template <typename T>
+CrowdBox<T> BoxAround(std::span<const Crowd<T>> crowds, ThreadPool* pool);
+
+extern template CrowdBox<float> BoxAround(std::span<const Crowd<float>>, ThreadPool*);
+extern template CrowdBox<double> BoxAround(std::span<const Crowd<double>>, ThreadPool*);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_SIMULATE_FLOCK_CROWD_H_
