@@ -14,6 +14,7 @@
 #include "tools/run_command.h"
 #include "tools/simulate_command.h"
 #include "tools/track_command.h"
+#include "tools/view_command.h"
 
 namespace flocklift {
 
@@ -25,6 +26,7 @@ void AddCommands(CLI::App& app) {
   AddReplayCommand(app);
   AddEvaluateCommand(app);
   AddReportCommand(app);
+  AddViewCommand(app);
   AddRunCommand(app);
   AddDemoCommand(app);
   AddCameraCommand(app);

@@ -47,6 +47,9 @@ class Sha256 {
       EVP_DigestUpdate(context_.get(), buffer.data(), static_cast<std::size_t>(file.gcount()));
     }
   }
+  void AddText(std::string_view text) {
+    EVP_DigestUpdate(context_.get(), text.data(), text.size());
+  }
   std::string Hex() {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
     unsigned int size = 0;
@@ -77,6 +80,12 @@ std::string Sha256OfInput(const fs::path& path) {
 std::string Sha256OfFile(const fs::path& path) {
   Sha256 hash;
   hash.AddFile(path);
+  return hash.Hex();
+}
+
+std::string Sha256OfText(std::string_view text) {
+  Sha256 hash;
+  hash.AddText(text);
   return hash.Hex();
 }
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulate/core/progress.h"
@@ -82,6 +83,7 @@ class Stage {
 
 // SHA-256 of a file's bytes as lower-case hex; InputError when it cannot be read.
 std::string Sha256OfFile(const std::filesystem::path& path);
+std::string Sha256OfText(std::string_view text);
 
 // Throws InputError when a needed file is not there.
 void RequireFile(const std::filesystem::path& path, const std::string& mend);

@@ -19,8 +19,8 @@ using Rows = std::map<int, Detection>;  // by frame
 
 class Corrector {
  public:
-  Corrector(const std::string& file, int frame_count, const Tracks& tracks)
-      : file_(file), frame_count_(frame_count) {
+  Corrector(const std::string& file, int frame_count, Id next_id, const Tracks& tracks)
+      : file_(file), frame_count_(frame_count), next_id_(next_id) {
     for (const Tracklet& tracklet : tracks.tracklets) {
       Rows& rows = rows_[tracklet.id];
       for (const Detection& detection : tracklet.detections) {
@@ -59,6 +59,8 @@ class Corrector {
       }
     }
   }
+
+  Id next_id() const { return next_id_; }
 
   Tracks Result(std::optional<double> fps) const {
     Tracks tracks;
@@ -215,16 +217,17 @@ class Corrector {
   std::string file_;
   int frame_count_ = 0;
   int line_ = 0;
-  Id next_id_ = 1;
+  Id next_id_;
   std::map<Id, Rows> rows_;
 };
 
 }  // namespace
 
 void ApplyCorrections(std::span<const Correction> corrections, const std::string& file,
-                      int frame_count, Tracks* tracks) {
-  Corrector corrector(file, frame_count, *tracks);
+                      int frame_count, Tracks* tracks, Id* next_id) {
+  Corrector corrector(file, frame_count, next_id != nullptr ? *next_id : 1, *tracks);
   for (const Correction& correction : corrections) corrector.Apply(correction);
+  if (next_id != nullptr) *next_id = corrector.next_id();
   *tracks = corrector.Result(tracks->fps);
 }
 

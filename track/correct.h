@@ -23,9 +23,11 @@ namespace flocklift {
 
 // `file` names the corrections' file in messages; `frame_count` is the footage's. Throws
 // InputError with the line for an id or frame that does not exist, or a join of two tracks that
-// were both seen in one frame. Tracks that lose all their rows disappear.
+// were both seen in one frame. Tracks that lose all their rows disappear. `next_id`, if given, is
+// the least id for a new animal, and becomes the one after those used: whoever applies corrections
+// to a few tracks of many knows the others' ids.
 void ApplyCorrections(std::span<const Correction> corrections, const std::string& file,
-                      int frame_count, Tracks* tracks);
+                      int frame_count, Tracks* tracks, Id* next_id = nullptr);
 
 }  // namespace flocklift
 

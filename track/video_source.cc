@@ -91,6 +91,22 @@ std::vector<fs::path> PicturesOfPattern(const fs::path& path, const Pattern& pat
 
 }  // namespace
 
+std::vector<fs::path> FootagePictures(const fs::path& path) {
+  if (const auto pattern = ParsePattern(path.filename().string())) {
+    return PicturesOfPattern(path, *pattern);
+  }
+  if (!fs::exists(path)) throw InputError(path.string(), 0, "no such file", kFootageMend);
+  if (fs::is_directory(path)) return PicturesOfFolder(path);
+  if (fs::is_regular_file(path) && fs::file_size(path) == 0) {
+    throw InputError(path.string(), 0, "the file is empty", kFootageMend);
+  }
+  if (IsPicture(path)) {
+    throw InputError(path.string(), 0, "this is one picture, not footage",
+                     "give the folder that holds it, or a pattern such as img_%04d.png");
+  }
+  return {};
+}
+
 bool NaturalLess(std::string_view a, std::string_view b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
@@ -117,20 +133,8 @@ bool NaturalLess(std::string_view a, std::string_view b) {
 class VideoSource::Impl {
  public:
   explicit Impl(const fs::path& path) : path_(path) {
-    if (const auto pattern = ParsePattern(path.filename().string())) {
-      pictures_ = PicturesOfPattern(path, *pattern);
-    } else if (!fs::exists(path)) {
-      throw InputError(path.string(), 0, "no such file", kFootageMend);
-    } else if (fs::is_directory(path)) {
-      pictures_ = PicturesOfFolder(path);
-    } else if (fs::is_regular_file(path) && fs::file_size(path) == 0) {
-      throw InputError(path.string(), 0, "the file is empty", kFootageMend);
-    } else if (IsPicture(path)) {
-      throw InputError(path.string(), 0, "this is one picture, not footage",
-                       "give the folder that holds it, or a pattern such as img_%04d.png");
-    } else {
-      OpenVideo();
-    }
+    pictures_ = FootagePictures(path);
+    if (pictures_.empty()) OpenVideo();
     if (!Decode(&ahead_)) {
       throw InputError(path.string(), 0, "no frame can be read",
                        "check that the video plays, or convert it with ffmpeg");

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "simulate/core/image.h"
 #include "track/gray_image.h"
@@ -40,6 +41,10 @@ class VideoSource {
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+// The pictures of a folder or pattern, in the order of the frames; empty when `path` is a file, which
+// must then be a video. Throws InputError when there is nothing.
+std::vector<std::filesystem::path> FootagePictures(const std::filesystem::path& path);
 
 // Order of names in which runs of digits compare as numbers.
 bool NaturalLess(std::string_view a, std::string_view b);

@@ -309,6 +309,16 @@ void BasicEngine<T>::MoveGoal(std::size_t index, const Vec3d& position) {
   impl_->MoveGoal(index, position);
 }
 template <typename T>
+void BasicEngine<T>::MovePredator(std::size_t index, const Vec3d& position) {
+  const auto now = impl_->predators.all();
+  std::vector<Predator> moved(now.begin(), now.end());
+  moved.at(index).position = Flattened(impl_->world.dimensions == 2, position);
+  StateWriter out;
+  out.Put(moved);
+  StateReader in(out.bytes());
+  impl_->predators.Load(&in);
+}
+template <typename T>
 void BasicEngine<T>::SetWind(const Vec3d& velocity) {
   impl_->world.wind.velocity = velocity;
 }

@@ -67,9 +67,11 @@ class BasicEngine {
   std::vector<Vec3d> Accelerations() const;
 
   // Changes from the next step on; what an [[event]] does, for whoever steers. Throws
-  // std::out_of_range for a species or goal that is not there, InputError as ResolveModel does.
+  // std::out_of_range for a species, goal or predator (from 0, in the order of their ids) that is
+  // not there, InputError as ResolveModel does.
   void SetParameters(const std::string& species, const ModelSpec& change);
   void MoveGoal(std::size_t index, const Vec3d& position);
+  void MovePredator(std::size_t index, const Vec3d& position);
   void SetWind(const Vec3d& velocity);
 
   // The whole state as bytes, and back into an engine that was made alike: it goes on as the saved

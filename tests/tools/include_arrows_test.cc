@@ -56,7 +56,8 @@ const std::vector<Library> kLibraries = {
     {"FLANN", std::regex("flann/.*"), {"simulate/shapes", "simulate/flock"}},
     {"TetGen", std::regex("tetgen\\.h"), {"simulate/shapes"}},
     {"CLI11", std::regex("CLI/.*"), {"tools"}},
-    {"FFmpeg", std::regex("lib(av|sw).*/.*"), {"simulate/render", "track"}},
+    {"FFmpeg", std::regex("lib(av|sw).*/.*"), {"simulate/render", "track", "tools/view"}},
+    {"cpp-httplib", std::regex("httplib\\.h"), {"tools/view"}},
 };
 
 std::string RoomOf(const std::string& path) {

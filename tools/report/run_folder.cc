@@ -156,7 +156,10 @@ RunFolder ReadRunFolder(const fs::path& folder, const std::optional<fs::path>& t
   if (is_round_trip) folders.push_back(parent);
 
   ReadSummaries(folders, &run);
-  if (const auto path = FindCamera(folders, &run)) run.camera = ReadCamera(*path);
+  if (const auto path = FindCamera(folders, &run)) {
+    run.camera = ReadCamera(*path);
+    run.camera_file = *path;
+  }
   if (const auto path = Find(CsvOrHdf5(folder, "tracks"), &run)) {
     run.tracks = ReadTracks(*path);
     if (const auto shapes = Find(CsvOrHdf5(folder, "shapes"), &run)) {

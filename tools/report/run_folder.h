@@ -29,6 +29,7 @@ struct RunFolder {
   std::filesystem::path folder;
   std::optional<double> fps;  // [1/s]
   std::optional<Camera> camera;
+  std::filesystem::path camera_file;  // empty: none
   std::optional<Tracks> tracks;
   std::optional<Trajectories> trajectories;  // velocities filled where fps is known
   std::optional<Parameters> parameters;

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// node run_test.mjs PROGRAM PACKAGES SCRATCH [SHOTS]: the page of a run, in a browser.
+
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { goTo, readFrame } from './film.mjs';
+import { openBrowser, openPage, run, serve, until } from './harness.mjs';
+import { FRAMES, makeRun } from './make_run.mjs';
+
+const [program, packages, scratch] = process.argv.slice(2);
+const browser = await openBrowser(packages);
+rmSync(scratch, { recursive: true, force: true });
+makeRun(scratch);
+run(program, ['reconstruct', join(scratch, 'tracks.csv'), '--camera', join(scratch, 'camera.yaml'),
+  '--wingspan', '0.7,0.05', '--speed', '4.5,1', '--out', scratch, '--quiet']);
+const server = await serve(program, [scratch]);
+const { page, complaints } = await openPage(browser, server.address);
+const press = (key) => page.keyboard.press(key);
+const say = (what) => console.log('ok: ' + what);
+
+await until('the page', () => page.evaluate(() => Boolean(window.flocklift?.footage)));
+await goTo(page, 1);
+await until('the flock', () => page.evaluate(() =>
+  document.querySelector('.flight canvas').dataset.frame === '1'));
+assert.equal(await page.locator('.animals li').count(), 5);
+say('the page loads');
+
+// Scrubbing shows the right frame: the number is read back from the pixels.
+await press('b');
+await press('t');
+for (const frame of [1, 2, FRAMES, 25, 24, 23, 49, 48, 77, 78, 79, 5, 100]) {
+  await goTo(page, frame);
+  assert.equal(await readFrame(page), frame);
+}
+const slider = page.locator('.scrub input');
+await slider.evaluate((input) => {
+  input.value = '60';
+  input.dispatchEvent(new Event('input', { bubbles: true }));
+});
+await until('frame 60', async () => (await readFrame(page)) === 60);
+await press('ArrowRight');
+await until('frame 61', async () => (await readFrame(page)) === 61);
+await press('Home');
+await until('frame 1', async () => (await readFrame(page)) === 1);
+// While it plays too: whatever frame it says, it shows.
+await press('Space');
+for (let k = 0; k < 10; k++) {
+  const [says, pixels] = [await page.evaluate(() => {
+    window.flocklift.footage.draw();
+    return window.flocklift.footage.frame;
+  }), await readFrame(page)];
+  assert.ok(pixels === says || pixels > says, `${pixels} is before ${says}`);
+}
+await press('Space');
+await press('b');
+await press('t');
+say('every frame is that frame');
+
+// Selecting in one picture selects in the other.
+await goTo(page, 30);
+const at = (animal) => page.evaluate((a) => window.flocklift.footage.onScreen(a), animal);
+const state = () => page.evaluate(() => {
+  const { selected, second, table, frame } = window.flocklift.run.store.get();
+  return { selected, second, table, frame };
+});
+await page.mouse.click(...(await at(1)));
+assert.equal((await state()).selected, 1);
+assert.equal(await page.locator('.animals li.selected').count(), 1);
+say('a click selects');
+
+// Every panel and view comes up, and the help names the keys.
+for (const key of ['1', '2', '3', '4', '5', '1', 'F2', 'F4', 'F1', 'u', 'g', 'u', 'g', 'i', 'l', 'l', 's', 's', 'i']) {
+  await press(key);
+}
+await press('?');
+assert.ok((await page.locator('.help dt').count()) > 30);
+await press('Escape');
+assert.equal(await page.locator('.help').count(), 0);
+say('keys work');
+
+// A swap and its undo change and restore the file and the picture.
+await press('F3');
+await until('suspects', () => page.evaluate(() => window.flocklift.run.suspects !== undefined));
+await goTo(page, 40);
+await page.mouse.click(...(await at(0)));
+await page.mouse.click(...(await at(2)), { modifiers: [] });
+await page.mouse.click(...(await at(0)));
+await page.keyboard.down('Shift');
+await page.mouse.click(...(await at(2)));
+await page.keyboard.up('Shift');
+assert.deepEqual([(await state()).selected, (await state()).second], [0, 2]);
+await page.mouse.move(2, 300);
+const places = async () => JSON.stringify([await at(0), await at(2)]);
+const picture = () => page.evaluate(() => {
+  window.flocklift.footage.draw();
+  return document.querySelector('.film canvas').toDataURL();
+});
+const before = await places();
+const pictureBefore = await picture();
+await press('x');
+await until('the swap', async () => (await places()) !== before);
+assert.equal(await places(), JSON.stringify(JSON.parse(before).reverse()));
+assert.equal(readFileSync(join(scratch, 'corrections.txt'), 'utf8'), 'swap 1 3 40\n');
+assert.notEqual(await picture(), pictureBefore);
+await press('z');
+await until('the undo', async () => (await places()) === before);
+assert.ok(!existsSync(join(scratch, 'corrections.txt')));
+assert.equal(await picture(), pictureBefore);
+await press('y');
+await until('the redo', async () => (await places()) !== before);
+await press('z');
+await until('the undo', async () => (await places()) === before);
+say('a swap and its undo');
+
+// A slider changes the depths, and the command line says it.
+await press('F2');
+const depth = (table) => page.evaluate(async (what) => {
+  const series = await window.flocklift.run.source.series(what, 0);
+  return series.depth[Math.floor(series.depth.length / 2)];
+}, table);
+const original = await depth('before');
+await page.locator('.solve select').selectOption('cobyla');
+const type = async (knob, value) => {
+  const input = page.locator(`[data-knob="${knob}"] input`);
+  await input.fill(String(value));
+  await input.press('Enter');
+};
+await type('d-near', 50);
+await type('d-far', 60);
+await until('a solve', () => page.evaluate(() => window.flocklift.run.solve?.state === 'done' &&
+  window.flocklift.run.command.includes('--d-far 60')));
+await until('new depths', async () => {
+  const now = await depth('after');
+  return now >= 50 && now <= 60;
+});
+assert.ok(original < 49, `it was at ${original}`);
+assert.equal((await state()).table, 'after');
+assert.match(await page.locator('.line code').innerText(), /--method cobyla .*--d-near 50 --d-far 60/);
+say('a slider changes the depths');
+
+// Strokes become tracks, and a flock.
+await press('F4');
+const film = await page.locator('.film canvas').boundingBox();
+const versions = await page.evaluate(() => window.flocklift.run.versions.after);
+for (const y of [0.45, 0.55]) {
+  await page.mouse.move(film.x + 0.3 * film.width, film.y + y * film.height);
+  await page.mouse.down();
+  for (let k = 1; k <= 8; k++) {
+    await page.mouse.move(film.x + (0.3 + 0.05 * k) * film.width, film.y + (y + 0.004 * k) * film.height);
+  }
+  await page.mouse.up();
+}
+await page.getByText('find depth of 2 strokes').click();
+await until('the sketch', () => page.evaluate((v) => window.flocklift.run.versions.after > v, versions));
+assert.ok(existsSync(join(scratch, 'sketch_tracks.csv')));
+say('strokes become tracks');
+
+assert.deepEqual(complaints, []);
+assert.equal(await server.stop(), 0);
+await until('words', () => page.getByText('The server is gone').isVisible());
+say('the page says that the server is gone');
+
+// Without WebGL the page says so, and goes on.
+const plain = await openBrowser(packages, { args: ['--no-sandbox', '--disable-gpu', '--disable-3d-apis'] });
+const second = await serve(program, [scratch]);
+const bare = await openPage(plain, second.address);
+await until('words', () => bare.page.getByText('no WebGL').isVisible());
+await until('footage', () => bare.page.evaluate(() => document.querySelector('.film canvas').dataset.frame === '1'));
+say('the page says that there is no WebGL');
+await plain.close();
+assert.equal(await second.stop(), 0);
+await browser.close();

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tools/view/live_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "simulate/core/check.h"
+#include "simulate/core/scene_io.h"
+#include "tools/view/scene_view.h"
+
+namespace flocklift {
+namespace {
+
+Scene SmallScene() {
+  return ParseScene(R"(
+[scene]
+seed = 3
+duration = 5
+fps = 60
+substeps = 1
+box = [[-20, -20, 0], [20, 20, 20]]
+[[species]]
+name = "bird"
+count = 40
+speed = 8
+model = "boids"
+[[predator]]
+)",
+                    "test");
+}
+
+struct Snapshot {
+  std::uint32_t agents = 0, goals = 0;
+  float time = 0;
+  std::vector<float> goal, position;
+};
+
+Snapshot Next(LiveScene* live, std::uint64_t* seen) {
+  std::shared_ptr<const std::string> look;
+  while (!(look = live->Look(seen))) {
+  }
+  Snapshot s;
+  std::uint32_t header[4];
+  std::memcpy(header, look->data(), sizeof header);
+  EXPECT_EQ(look->substr(0, 4), "FLKS");
+  s.agents = header[1];
+  s.goals = header[2];
+  std::memcpy(&s.time, look->data() + 16, 4);
+  s.goal.resize(3 * s.goals);
+  s.position.resize(3 * s.agents);
+  std::memcpy(s.goal.data(), look->data() + 32, 4 * s.goal.size());
+  std::memcpy(s.position.data(), look->data() + 32 + 4 * s.goal.size(), 4 * s.position.size());
+  const std::size_t velocities = (3 * s.agents + 1) / 2 * 4;
+  EXPECT_EQ(look->size(), 32 + 4 * (s.goal.size() + s.position.size()) + velocities);
+  return s;
+}
+
+double MeanDistance(const Snapshot& s, const Vec3d& to, std::size_t animals) {
+  double sum = 0;
+  for (std::size_t k = 0; k < animals; ++k) {
+    sum += Norm(Vec3d{s.position[3 * k], s.position[3 * k + 1], s.position[3 * k + 2]} - to);
+  }
+  return sum / static_cast<double>(animals);
+}
+
+TEST(LiveScene, RunsPausesStepsAndResets) {
+  LiveScene live(SmallScene(), 1);
+  std::uint64_t seen = 0;
+  Snapshot s = Next(&live, &seen);
+  EXPECT_EQ(s.agents, 41u);
+  while (s.time < 0.1) s = Next(&live, &seen);
+  live.Pause(true);
+  const Snapshot before = Next(&live, &seen);
+  live.StepOnce();
+  s = Next(&live, &seen);
+  while (s.time == before.time) s = Next(&live, &seen);
+  EXPECT_NEAR(s.time - before.time, 1.0 / 60, 1e-5);
+  live.Reset();
+  s = Next(&live, &seen);
+  while (s.time > 0) s = Next(&live, &seen);
+  LiveScene again(SmallScene(), 1);
+  std::uint64_t seen_again = 0;
+  EXPECT_EQ(Next(&again, &seen_again).position, s.position);
+}
+
+TEST(LiveScene, AClickAttractsTheFlock) {
+  LiveScene live(SmallScene(), 1);
+  live.SetPace(20);
+  const Vec3d point{12, 12, 15};
+  std::uint64_t seen = 0;
+  const Snapshot before = Next(&live, &seen);
+  live.Attract(point, 3);
+  Snapshot s = before;
+  while (s.time < before.time + 8) s = Next(&live, &seen);
+  ASSERT_EQ(s.goals, 1u);
+  EXPECT_EQ(s.goal, (std::vector<float>{12, 12, 15}));
+  EXPECT_LT(MeanDistance(s, point, 40), 0.6 * MeanDistance(before, point, 40));
+  live.Attract(std::nullopt, 3);
+  EXPECT_TRUE(live.Current().goals.empty());
+}
+
+TEST(LiveScene, ParametersGoalsPredatorsAndWindAreKept) {
+  LiveScene live(SmallScene(), 1);
+  live.Pause(true);
+  ModelSpec change;
+  change.parameters["alpha_a"] = 0.25;
+  ModelSpec wrong;
+  wrong.parameters["k_x"] = 1;
+  EXPECT_THROW(live.SetParameter("bird", wrong), InputError);
+  EXPECT_THROW(live.SetParameter("fish", change), std::invalid_argument);
+  EXPECT_THROW(live.MoveGoal(0, {1, 2, 3}), std::invalid_argument);
+  EXPECT_THROW(live.MovePredator(1, {1, 2, 3}), std::invalid_argument);
+  live.Attract(Vec3d{1, 2, 3}, 2);
+  live.MoveGoal(0, {4, 5, 6});
+  live.SetWind({1, 0, 0});
+  live.MovePredator(0, {7, 8, 9});
+  std::uint64_t seen = 0;
+  Snapshot s = Next(&live, &seen);
+  while (s.position[3 * 40] != 7) s = Next(&live, &seen);
+  EXPECT_EQ(s.position[3 * 40 + 2], 9);
+  // What is saved reads back as it is.
+  const Scene now = ParseScene(FormatScene(live.Current()), "saved");
+  ASSERT_EQ(now.goals.size(), 1u);
+  EXPECT_EQ(now.goals[0].position, (Vec3d{4, 5, 6}));
+  EXPECT_EQ(now.wind.velocity, (Vec3d{1, 0, 0}));
+}
+
+TEST(LiveScene, AWayLeadsAGoalAlong) {
+  LiveScene live(SmallScene(), 1);
+  live.SetPace(20);
+  live.Lead({{-10, 0, 5}, {10, 0, 5}}, 2, 1);
+  std::uint64_t seen = 0;
+  Snapshot s = Next(&live, &seen);
+  const float start = s.time;
+  while (s.time < start + 3) s = Next(&live, &seen);
+  EXPECT_NEAR(s.goal[0], 10, 1e-4);
+  EXPECT_EQ(live.Current().goals.at(0).waypoints.size(), 24u);
+}
+
+}  // namespace
+}  // namespace flocklift

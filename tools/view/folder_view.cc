@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tools/view/folder_view.h"
+
+#include <mutex>
+#include <shared_mutex>
+#include <sstream>
+#include <utility>
+
+#include "simulate/core/check.h"
+#include "simulate/core/io.h"
+#include "tools/view/event_bus.h"
+#include "tools/view/flock_series.h"
+#include "tools/view/folder_path.h"
+#include "tools/view/page_routes.h"
+#include "tools/view/run_data.h"
+#include "tools/view/sketch.h"
+#include "tools/view/solve_options.h"
+#include "tools/view/solver.h"
+#include "tools/view/suspects.h"
+
+namespace flocklift {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kSketch = "sketch_tracks.csv";
+
+}  // namespace
+
+class FolderView::Impl {
+ public:
+  explicit Impl(const FolderViewOptions& options)
+      : data_(options.folder, options.truth, options.fps),
+        threads_(options.threads),
+        solver_({.progress = [this](auto job, auto done, auto total) { Tell(job, done, total); },
+                 .finished = [this](auto job, ReconstructResult&& result,
+                                    double seconds) { Finished(job, std::move(result), seconds); },
+                 .failed =
+                     [this](auto job, const std::string& reason) {
+                       bus_.Publish("solve", {{"job", job}, {"state", "failed"}, {"text", reason}});
+                     }}) {}
+
+  void Serve(HttpServer* server) {
+    ServePage(server, &bus_);
+    server->Get("/api/session", [this](const HttpRequest&) {
+      const std::shared_lock lock(mutex_);
+      return JsonReply(data_.Session());
+    });
+    server->Get("/api/window", [this](const HttpRequest& r) { return Window(r); });
+    server->Get("/api/series", [this](const HttpRequest& r) { return Series(r); });
+    server->Get("/api/suspects", [this](const HttpRequest&) { return Suspects(); });
+    server->Get("/frame/", [this](const HttpRequest& r) { return Frame(r); });
+    server->Get("/files/", [this](const HttpRequest& r) { return File(r); });
+    server->Get("/video", [this](const HttpRequest&) -> HttpReply {
+      const auto& footage = data_.footage();
+      if (!footage || footage->file().empty()) return {.status = 404, .body = "{}"};
+      return {.type = "video/mp4", .file = footage->file()};
+    });
+    server->Post("/api/solve", [this](const HttpRequest& r) { return Solve(BodyOf(r)); });
+    server->Post("/api/cancel", [this](const HttpRequest&) {
+      solver_.Cancel();
+      bus_.Publish("solve", {{"state", "cancelled"}});
+      return JsonReply(Json::object());
+    });
+    server->Post("/api/edit", [this](const HttpRequest& r) { return Edit(BodyOf(r)); });
+    server->Post("/api/undo", [this](const HttpRequest&) {
+      return Change([](TrackEditor& editor) { Check(editor.Undo(), "there is nothing to undo"); });
+    });
+    server->Post("/api/redo", [this](const HttpRequest&) {
+      return Change([](TrackEditor& editor) { Check(editor.Redo(), "there is nothing to redo"); });
+    });
+    server->Post("/api/sketch", [this](const HttpRequest& r) { return Sketch(BodyOf(r)); });
+  }
+
+ private:
+  HttpReply Window(const HttpRequest& request) {
+    const int first = request.Number("first"), last = request.Number("last");
+    const std::string what = request.Text("what");
+    const std::shared_lock lock(mutex_);
+    if (what == "boxes") return BinaryReply(PackWindow(data_.boxes(), first, last));
+    const TrajectoryTable* table = data_.Table(what);
+    return BinaryReply(PackWindow(table != nullptr ? *table : TrajectoryTable{}, first, last));
+  }
+
+  HttpReply Series(const HttpRequest& request) {
+    const std::shared_lock lock(mutex_);
+    const TrajectoryTable* table = data_.Table(request.Text("what", "before"));
+    if (table == nullptr) return JsonReply(FlockSeries({}, {}));
+    const std::string animal = request.Text("animal");
+    if (animal.empty()) return JsonReply(FlockSeries(*table, data_.run().camera));
+    const int index = request.Number("animal");
+    Check(index >= 0, "animals count from 0");
+    return JsonReply(AnimalSeries(*table, data_.run().camera, static_cast<std::uint32_t>(index)));
+  }
+
+  HttpReply Suspects() {
+    const std::shared_lock lock(mutex_);
+    Json list = Json::array();
+    if (!data_.run().tracks) return JsonReply(list);
+    const auto& footage = data_.footage();
+    const auto& camera = data_.run().camera;
+    const double width = footage ? footage->width() : camera ? camera->width : 1e4;
+    const double height = footage ? footage->height() : camera ? camera->height : 1e4;
+    for (const Suspect& s : FindSuspects(data_.CurrentTracks(), width, height)) {
+      list.push_back({{"frame", s.frame},
+                      {"id", std::to_string(s.id)},
+                      {"other", s.other_id == 0 ? "" : std::to_string(s.other_id)},
+                      {"what", s.what},
+                      {"doubt", s.doubt}});
+    }
+    return JsonReply(list);
+  }
+
+  HttpReply Frame(const HttpRequest& request) {
+    const auto& footage = data_.footage();
+    HttpRequest numbered = request;
+    numbered.query["frame"] = request.path.substr(request.path.find_last_of('/') + 1);
+    const int frame = numbered.Number("frame");
+    const int width = request.query.contains("width") ? request.Number("width") : 1 << 20;
+    const std::string jpeg = footage ? footage->Jpeg(frame, width) : "";
+    if (jpeg.empty()) return {.status = 404, .body = R"({"error": "there is no such frame"})"};
+    return {.type = "image/jpeg", .body = jpeg};
+  }
+
+  HttpReply File(const HttpRequest& request) {
+    const std::string name = request.path.substr(std::string("/files/").size());
+    const auto path = PathInFolder(data_.folder(), name);
+    if (!path || !fs::is_regular_file(*path)) {
+      return {.status = 404, .body = R"({"error": "there is no such file in the folder"})"};
+    }
+    HttpReply reply{.type = "application/octet-stream", .file = *path};
+    if (IsPlainFileName(name, "")) reply.download_name = name;
+    return reply;
+  }
+
+  HttpReply Solve(const Json& body) {
+    Solver::Job job;
+    std::string line;
+    {
+      const std::shared_lock lock(mutex_);
+      const RunFolder& run = data_.run();
+      Check(run.camera.has_value(), "there is no camera");
+      Check(run.fps.has_value(), "nothing says how many frames a second has");
+      ReconstructCommand command = data_.Command();
+      TakeSolveOptions(body, &command);
+      const bool of_sketch = body.value("source", "tracks") == "sketch";
+      if (of_sketch) {
+        command.tracks = data_.folder() / kSketch;
+        command.no_size = true;
+      }
+      ReconstructOptions options;
+      options.method =
+          command.method == "cobyla" ? ReconstructMethod::kCobyla : ReconstructMethod::kBatch;
+      options.knowledge = KnowledgeOf(command);
+      options.pitch_deg = command.pitch_deg;
+      options.batch = command.batch;
+      options.cobyla = command.cobyla;
+      line = CommandLineOf(command);
+      job = [options, tracks = of_sketch ? sketch_ : data_.CurrentTracks(), camera = *run.camera,
+             fps = *run.fps, threads = threads_](const Progress& progress) {
+        return Reconstruct(options, tracks, camera, fps, threads, progress);
+      };
+    }
+    const std::int64_t number = solver_.Start(std::move(job));
+    return JsonReply({{"job", number}, {"command", line}});
+  }
+
+  void Tell(std::int64_t job, std::int64_t done, std::int64_t total) {
+    bus_.Publish("solve", {{"job", job}, {"state", "running"}, {"done", done}, {"total", total}});
+  }
+
+  void Finished(std::int64_t job, ReconstructResult&& result, double seconds) {
+    Json versions;
+    {
+      const std::unique_lock lock(mutex_);
+      data_.SetSolved(result.trajectories);
+      versions = data_.Versions();
+    }
+    const ReconstructReport& report = result.report;
+    bus_.Publish("data", versions);
+    bus_.Publish("solve", {{"job", job},
+                           {"state", "done"},
+                           {"seconds", seconds},
+                           {"animals", result.trajectories.trajectories.size()},
+                           {"iterations", report.iterations},
+                           {"cost", report.final_cost},
+                           {"converged", report.converged},
+                           {"text", report.observability},
+                           {"warnings", report.warnings}});
+  }
+
+  HttpReply Edit(const Json& body) {
+    std::istringstream line(body.at("line").get<std::string>() + "\n");
+    const std::vector<Correction> corrections = ReadCorrections(line, "the correction");
+    Check(corrections.size() == 1, "send one correction");
+    return Change([&](TrackEditor& editor) { editor.Apply(corrections.front()); });
+  }
+
+  template <typename Work>
+  HttpReply Change(const Work& work) {
+    Json edits, versions;
+    {
+      const std::unique_lock lock(mutex_);
+      work(data_.editor());
+      data_.TracksChanged();
+      edits = data_.Edits();
+      versions = data_.Versions();
+    }
+    bus_.Publish("edits", edits);
+    bus_.Publish("data", versions);
+    return JsonReply({{"edits", edits}, {"versions", versions}});
+  }
+
+  HttpReply Sketch(const Json& body) {
+    const std::vector<Stroke> strokes = StrokesOf(body);
+    const std::unique_lock lock(mutex_);
+    constexpr double kSize = 12;  // [px]; the size is not used
+    sketch_ = TracksOfStrokes(strokes, kSize);
+    sketch_.fps = data_.run().fps;
+    WriteTracks(data_.folder() / kSketch, sketch_);
+    return JsonReply(
+        {{"file", (data_.folder() / kSketch).string()}, {"tracks", sketch_.tracklets.size()}});
+  }
+
+  std::shared_mutex mutex_;  // guards data_ and sketch_
+  RunData data_;
+  Tracks sketch_;
+  int threads_;
+  EventBus bus_;
+  Solver solver_;  // the last, so that it stops before what it tells goes
+};
+
+FolderView::FolderView(const FolderViewOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+FolderView::~FolderView() = default;
+void FolderView::Serve(HttpServer* server) { impl_->Serve(server); }
+
+}  // namespace flocklift

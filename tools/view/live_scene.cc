@@ -1,0 +1,352 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tools/view/live_scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <utility>
+
+#include "simulate/core/check.h"
+#include "simulate/flock/model.h"
+#include "tools/view/sketch.h"
+
+namespace flocklift {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kLooksPerSecond = 60;
+constexpr double kMostOfALook = 0.9;  // of its time may be stepping
+constexpr int kWaypoints = 24;
+constexpr std::uint32_t kMagic = 0x534b4c46;  // "FLKS"
+
+double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+void CheckFinite(const Vec3d& v) {
+  constexpr double kFarthest = 1e7;  // [m]
+  Check(std::isfinite(SquaredNorm(v)) && Norm(v) < kFarthest, "a place must be finite and near");
+}
+
+// Puts the spec's settings into another's.
+void Merge(const ModelSpec& change, ModelSpec* spec) {
+  for (const auto& [name, value] : change.parameters) spec->parameters[name] = value;
+  for (const auto& [name, word] : change.choices) spec->choices[name] = word;
+}
+
+template <typename T>
+void Append(const T* values, std::size_t count, std::string* bytes) {
+  bytes->append(reinterpret_cast<const char*>(values), count * sizeof(T));
+}
+
+}  // namespace
+
+// What another thread wants done, and how it went.
+struct LiveScene::Change {
+  const std::function<void()>& work;
+  bool done = false;
+  std::exception_ptr error = {};
+};
+
+LiveScene::LiveScene(const Scene& scene, int threads)
+    : scene_(scene), threads_(threads), population_(Populate(scene)) {
+  engine_ = std::make_unique<Engine>(population_.world, population_.swarms,
+                                     EngineOptions{.threads = threads, .kernel = {}});
+  MakeLook(0, 0);
+  thread_ = std::thread([this] { Work(); });
+}
+
+LiveScene::~LiveScene() {
+  {
+    const std::lock_guard lock(mutex_);
+    stops_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void LiveScene::Do(const std::function<void()>& work) {
+  Change change{.work = work};
+  std::unique_lock lock(mutex_);
+  changes_.push_back(&change);
+  changed_.notify_all();
+  changed_.wait(lock, [&] { return change.done; });
+  if (change.error) std::rethrow_exception(change.error);
+}
+
+void LiveScene::Work() {
+  const auto period = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(1 / kLooksPerSecond));
+  auto next = Clock::now();
+  double owed = 0;  // simulated time that is still to be stepped [s]
+  auto counted = Clock::now();
+  int looks = 0, steps = 0;
+  double looks_per_second = 0, steps_per_second = 0;
+  while (true) {
+    bool changed = false;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait_until(lock, next, [this] { return stops_ || !changes_.empty(); });
+      if (stops_) {
+        for (Change* change : changes_) change->done = true;
+        changed_.notify_all();
+        return;
+      }
+      for (Change* change : std::exchange(changes_, {})) {
+        try {
+          change->work();
+          changed = true;
+        } catch (...) {
+          change->error = std::current_exception();
+        }
+        change->done = true;
+      }
+      changed_.notify_all();
+    }
+    const auto start = Clock::now();
+    if (start < next && !changed) continue;
+    if (start >= next) {
+      // A look that is late is not caught up with.
+      next = std::max(next + period, start - period);
+      if (!paused_) owed += pace_ / kLooksPerSecond;
+      try {
+        const double dt = population_.world.dt;
+        while (!paused_ && owed >= dt &&
+               Seconds(Clock::now() - start) < kMostOfALook / kLooksPerSecond) {
+          engine_->Step();
+          owed -= dt;
+          ++steps;
+        }
+        owed = std::min(owed, 2 * dt + pace_ / kLooksPerSecond);
+      } catch (const std::runtime_error&) {
+        paused_ = true;  // the state is not finite any more: a reset helps
+      }
+      ++looks;
+      if (const double seconds = Seconds(start - counted); seconds > 0.5) {
+        looks_per_second = looks / seconds;
+        steps_per_second = steps / seconds;
+        looks = steps = 0;
+        counted = start;
+      }
+    }
+    MakeLook(looks_per_second, steps_per_second);
+  }
+}
+
+void LiveScene::MakeLook(double looks_per_second, double steps_per_second) {
+  const FlockState state = engine_->State();
+  const std::size_t n = state.size();
+  double fastest = 1e-6;
+  for (const Vec3d& v : state.velocity) fastest = std::max(fastest, Norm(v));
+  const double unit = fastest / 32767;
+  std::vector<float> places;
+  places.reserve(3 * (scene_.goals.size() + n));
+  const auto put = [&places](const Vec3d& p) {
+    places.insert(places.end(),
+                  {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+  };
+  for (const GoalSpec& goal : scene_.goals) put(GoalPosition(goal, engine_->time()));
+  for (const Vec3d& p : state.position) put(p);
+  std::vector<std::int16_t> velocities;
+  velocities.reserve(3 * n + 1);
+  for (const Vec3d& v : state.velocity) {
+    for (const double x : {v.x, v.y, v.z}) {
+      velocities.push_back(static_cast<std::int16_t>(std::lround(x / unit)));
+    }
+  }
+  if (velocities.size() % 2 == 1) velocities.push_back(0);
+  auto look = std::make_shared<std::string>();
+  look->reserve(32 + 4 * places.size() + 2 * velocities.size());
+  const std::uint32_t header[] = {kMagic, static_cast<std::uint32_t>(n),
+                                  static_cast<std::uint32_t>(scene_.goals.size()),
+                                  static_cast<std::uint32_t>(looks_ + 1)};
+  const float rates[] = {static_cast<float>(engine_->time()), static_cast<float>(looks_per_second),
+                         static_cast<float>(steps_per_second), static_cast<float>(unit)};
+  Append(header, std::size(header), look.get());
+  Append(rates, std::size(rates), look.get());
+  Append(places.data(), places.size(), look.get());
+  Append(velocities.data(), velocities.size(), look.get());
+  {
+    const std::lock_guard lock(mutex_);
+    look_ = std::move(look);
+    ++looks_;
+  }
+  changed_.notify_all();
+}
+
+std::shared_ptr<const std::string> LiveScene::Look(std::uint64_t* seen) {
+  constexpr std::chrono::milliseconds kWait(200);
+  std::unique_lock lock(mutex_);
+  if (!changed_.wait_for(lock, kWait, [&] { return looks_ > *seen; })) return nullptr;
+  *seen = looks_;
+  return look_;
+}
+
+void LiveScene::Rebuild() {
+  const FlockState state = engine_->State();
+  Population now = population_;
+  now.world.seed = scene_.seed + ++rebuilds_;
+  now.world.time = engine_->time();
+  now.world.goals = scene_.goals;
+  now.world.wind = scene_.wind;
+  std::erase_if(now.world.events,
+                [&](const EventSpec& event) { return event.time <= now.world.time; });
+  for (EventSpec& event : now.world.events) {
+    if (event.goal && *event.goal > scene_.goals.size()) event.goal.reset();
+  }
+  std::size_t agent = 0;
+  for (Swarm& swarm : now.swarms) {
+    for (const SpeciesSpec& species : scene_.species) {
+      if (species.name != swarm.species) continue;
+      swarm.spec = species.model;
+      swarm.model = ResolveModel(species.model);
+      swarm.forces = species.forces;
+    }
+    for (std::size_t k = 0; k < swarm.position.size(); ++k, ++agent) {
+      swarm.position[k] = state.position[agent];
+      swarm.velocity[k] = state.velocity[agent];
+    }
+  }
+  auto engine = std::make_unique<Engine>(now.world, now.swarms,
+                                         EngineOptions{.threads = threads_, .kernel = {}});
+  for (std::size_t k = 0; agent + k < state.size(); ++k) {
+    engine->MovePredator(k, state.position[agent + k]);
+  }
+  engine_ = std::move(engine);
+}
+
+void LiveScene::Pause(bool paused) {
+  Do([&] { paused_ = paused; });
+}
+
+void LiveScene::StepOnce() {
+  Do([&] {
+    paused_ = true;
+    engine_->Step();
+  });
+}
+
+void LiveScene::Reset() {
+  Do([&] {
+    population_ = Populate(scene_);
+    engine_ = std::make_unique<Engine>(population_.world, population_.swarms,
+                                       EngineOptions{.threads = threads_, .kernel = {}});
+  });
+}
+
+void LiveScene::SetPace(double pace) {
+  Check(pace >= 0.05 && pace <= 20, "the pace must be 0.05 to 20");
+  Do([&] { pace_ = pace; });
+}
+
+void LiveScene::SetParameter(const std::string& species, const ModelSpec& change) {
+  Do([&] {
+    for (SpeciesSpec& spec : scene_.species) {
+      if (spec.name != species) continue;
+      ModelSpec merged = spec.model;
+      Merge(change, &merged);
+      ResolveModel(merged);  // throws before anything changed
+      engine_->SetParameters(species, change);
+      spec.model = merged;
+      return;
+    }
+    Check(false, "there is no species " + species);
+  });
+}
+
+void LiveScene::MoveGoal(std::size_t index, const Vec3d& position) {
+  CheckFinite(position);
+  Do([&] {
+    Check(index < scene_.goals.size(), "there is no such goal");
+    engine_->MoveGoal(index, position);
+    scene_.goals[index].position = position;
+    scene_.goals[index].waypoints.clear();
+  });
+}
+
+void LiveScene::MovePredator(std::size_t index, const Vec3d& position) {
+  CheckFinite(position);
+  Do([&] {
+    std::size_t predators = 0;
+    for (const PredatorSpec& spec : scene_.predators) {
+      predators += static_cast<std::size_t>(spec.count);
+    }
+    Check(index < predators, "there is no such predator");
+    engine_->MovePredator(index, position);
+  });
+}
+
+void LiveScene::SetWind(const Vec3d& velocity) {
+  CheckFinite(velocity);
+  Do([&] {
+    engine_->SetWind(velocity);
+    scene_.wind.velocity = velocity;
+  });
+}
+
+void LiveScene::Attract(const std::optional<Vec3d>& position, double weight) {
+  if (position) CheckFinite(*position);
+  Check(weight > 0 && weight <= 1000, "the weight must be positive");
+  Do([&] {
+    const bool crowd = std::any_of(scene_.species.begin(), scene_.species.end(),
+                                   [](const SpeciesSpec& s) { return s.model.name == "crowd"; });
+    if (crowd) {
+      if (!position || scene_.goals.empty()) return;
+      engine_->MoveGoal(0, *position);
+      scene_.goals[0].position = *position;
+      scene_.goals[0].waypoints.clear();
+      return;
+    }
+    const std::vector<GoalSpec> before = scene_.goals;
+    const auto attraction_before = attraction_;
+    if (position && attraction_ && scene_.goals[*attraction_].weight == weight &&
+        scene_.goals[*attraction_].waypoints.empty()) {
+      engine_->MoveGoal(*attraction_, *position);
+      scene_.goals[*attraction_].position = *position;
+      return;
+    }
+    if (attraction_) {
+      scene_.goals.erase(scene_.goals.begin() + static_cast<std::ptrdiff_t>(*attraction_));
+      attraction_.reset();
+    }
+    if (position) {
+      attraction_ = scene_.goals.size();
+      scene_.goals.push_back({.species = {}, .position = *position, .weight = weight});
+    }
+    try {
+      Rebuild();
+    } catch (...) {
+      scene_.goals = before;
+      attraction_ = attraction_before;
+      throw;
+    }
+  });
+}
+
+void LiveScene::Lead(const std::vector<Vec3d>& line, double seconds, double weight) {
+  Check(line.size() >= 2, "a way needs two points");
+  Check(seconds > 0 && seconds < 1e5 && weight > 0, "a way needs a time and a weight");
+  for (const Vec3d& p : line) CheckFinite(p);
+  Attract(line.front(), weight);
+  Do([&] {
+    Check(attraction_.has_value(), "the model crowd cannot be led along a line");
+    GoalSpec& goal = scene_.goals[*attraction_];
+    const std::vector<Vec3d> points = EvenlyAlong(line, kWaypoints);
+    for (int k = 0; k < kWaypoints; ++k) {
+      goal.waypoints.push_back({.time = engine_->time() + seconds * k / (kWaypoints - 1),
+                                .position = points[static_cast<std::size_t>(k)]});
+    }
+    Rebuild();
+  });
+}
+
+Scene LiveScene::Current() {
+  Scene scene;
+  Do([&] { scene = scene_; });
+  return scene;
+}
+
+}  // namespace flocklift

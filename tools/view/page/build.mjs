@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// node build.mjs OUT: page.html, page.js and page.css, with every package bundled in.
+
+import { build } from 'esbuild';
+import { copyFile } from 'node:fs/promises';
+import { join } from 'node:path';
+
+const out = process.argv[2];
+await build({
+  entryPoints: { page: 'src/main.tsx' },
+  outdir: out,
+  bundle: true,
+  minify: true,
+  format: 'iife',
+  target: 'es2022',
+  jsx: 'automatic',
+  jsxImportSource: 'preact',
+  legalComments: 'eof',
+  logLevel: 'warning',
+});
+await copyFile('src/page.html', join(out, 'page.html'));

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The keyboard: one table of keys, what they do and the words for the help.
+
+export interface Key {
+  keys: string[]; // as KeyboardEvent.key, with "Shift+" or "Ctrl+" before it
+  shown: string;
+  text: string;
+  group: string;
+  act: () => void;
+}
+
+export function nameOf(event: KeyboardEvent): string {
+  const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  const ctrl = event.ctrlKey || event.metaKey ? 'Ctrl+' : '';
+  const shift = event.shiftKey && (event.key.length > 1 || /[a-z]/i.test(event.key)) ? 'Shift+' : '';
+  return ctrl + shift + key;
+}
+
+export function listenToKeys(keys: Key[]): void {
+  addEventListener('keydown', (event) => {
+    const target = event.target as HTMLElement;
+    const types = target.matches('input:not([type=range]):not([type=checkbox]), textarea, select');
+    if (types || event.altKey) return;
+    const name = nameOf(event);
+    const key = keys.find((k) => k.keys.includes(name));
+    if (!key) return;
+    event.preventDefault();
+    if (target.matches('button, input, summary')) target.blur();
+    key.act();
+  });
+}

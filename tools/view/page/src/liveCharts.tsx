@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The last half minute of a running scene: how ordered it is, how fast, how far from the point that
+// attracts it.
+
+import { useEffect, useRef } from 'preact/hooks';
+import uPlot from 'uplot';
+
+import { colourOf, ground } from './colours';
+import type { Look } from './live';
+import { useValue, type Store } from './state';
+
+const NAMES = ['polarisation', 'mean speed [m/s]', 'spread [m]', 'mean distance to the goal [m]'];
+const KEPT = 900;
+
+function measure(look: Look): (number | null)[] {
+  const n = Math.max(look.agents, 1);
+  let speed = 0;
+  let distance = 0;
+  const heading = [0, 0, 0];
+  const centre = [0, 0, 0];
+  const goal = look.goals.length > 0 ? look.goals.subarray(look.goals.length - 3) : null;
+  for (let k = 0; k < look.agents; k++) {
+    const v = look.velocity.subarray(3 * k, 3 * k + 3);
+    const p = look.position.subarray(3 * k, 3 * k + 3);
+    const length = Math.hypot(v[0], v[1], v[2]);
+    speed += length * look.unit;
+    for (let axis = 0; axis < 3; axis++) {
+      if (length > 0) heading[axis] += v[axis] / length / n;
+      centre[axis] += p[axis] / n;
+    }
+    if (goal) distance += Math.hypot(p[0] - goal[0], p[1] - goal[1], p[2] - goal[2]);
+  }
+  let spread = 0;
+  for (let k = 0; k < look.agents; k++) {
+    for (let axis = 0; axis < 3; axis++) spread += (look.position[3 * k + axis] - centre[axis]) ** 2;
+  }
+  return [Math.hypot(...heading), speed / n, Math.sqrt(spread / n), goal ? distance / n : null];
+}
+
+export class LiveSeries {
+  readonly columns: (number | null)[][] = [[], [], [], [], []];
+  private count = 0;
+  listener: (() => void) | null = null;
+
+  take(look: Look): void {
+    if (this.count++ % 2 !== 0) return; // 30 a second are enough
+    const times = this.columns[0] as number[];
+    if (times.length > 0 && look.time <= times[times.length - 1]) {
+      if (look.time === times[times.length - 1]) return;
+      this.columns.forEach((column) => (column.length = 0)); // a reset
+    }
+    [look.time, ...measure(look)].forEach((value, k) => this.columns[k].push(value));
+    if (times.length > KEPT) this.columns.forEach((column) => column.shift());
+    this.listener?.();
+  }
+}
+
+export function LiveCharts({ series, store }: { series: LiveSeries; store: Store }) {
+  const host = useRef<HTMLDivElement>(null);
+  const dark = useValue(store, (s) => s.dark);
+  useEffect(() => {
+    const element = host.current;
+    if (!element) return;
+    element.textContent = '';
+    const colours = ground(dark);
+    const size = () => ({ width: Math.max(Math.floor(element.clientWidth / NAMES.length) - 6, 80),
+      height: Math.max(element.clientHeight, 60) });
+    const fontSize = Math.round(parseFloat(getComputedStyle(element).fontSize) * 0.85);
+    const axis = { stroke: colours.ink, grid: { stroke: colours.grid, width: 1 },
+      font: `${fontSize}px system-ui, sans-serif`, ticks: { show: false } };
+    const plots = NAMES.map((name, k) => {
+      const cell = document.createElement('div');
+      cell.className = 'chart';
+      const title = document.createElement('span');
+      title.textContent = name;
+      cell.append(title);
+      element.append(cell);
+      return new uPlot({
+        ...size(), legend: { show: false },
+        cursor: { show: false },
+        scales: { x: { time: false }, y: k === 0 ? { range: [-0.02, 1.05] } : {} },
+        padding: [fontSize * 2.1, 6, 0, 0],
+        axes: [{ ...axis, size: fontSize * 1.9, space: 60 }, { ...axis, size: fontSize * 3.4, space: 28 }],
+        series: [{}, { stroke: colourOf(0, dark), width: 1.4, points: { show: false } }],
+      }, [[], []], cell);
+    });
+    let waiting = false;
+    series.listener = () => {
+      if (waiting) return;
+      waiting = true;
+      requestAnimationFrame(() => {
+        waiting = false;
+        plots.forEach((plot, k) =>
+          plot.setData([series.columns[0] as number[], series.columns[k + 1]] as uPlot.AlignedData));
+      });
+    };
+    const resize = new ResizeObserver(() => plots.forEach((plot) => plot.setSize(size())));
+    resize.observe(element);
+    return () => {
+      resize.disconnect();
+      series.listener = null;
+      plots.forEach((plot) => plot.destroy());
+    };
+  }, [dark]);
+  return <div class="charts" ref={host} />;
+}

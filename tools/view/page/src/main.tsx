@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Asks what there is to show, and shows it.
+
+import '../node_modules/lil-gui/dist/lil-gui.css'; // not among its exports
+import 'uplot/dist/uPlot.min.css';
+import './style.css';
+
+import { render } from 'preact';
+
+import { getJson, listen } from './api';
+import { Run } from './run';
+import { RunPage } from './runPage';
+import { ScenePage } from './scenePage';
+import { exportedSource, serverSource, type Source } from './source';
+import { Store } from './state';
+import { applyTheme, systemIsDark } from './theme';
+import type { Edits, Session, SolveNews, Versions } from './types';
+
+const store = new Store({
+  mode: 'look', frame: 1, playing: false, speed: 1, loop: true, selected: -1, second: -1,
+  hovered: -1, hidden: new Set(), solo: false, view: 'orbit', table: 'before', ghost: 'none',
+  boxes: true, ids: false, trails: 30, bars: true, grid: true, birdScale: 1, panel: true,
+  help: false, gone: false, message: '', dark: systemIsDark(),
+});
+
+function showRun(source: Source, root: HTMLElement): void {
+  const { session } = source;
+  store.set({ frame: session.frames.first,
+    table: session.versions.after > 0 ? 'after' : 'before' });
+  const run = new Run(source, store);
+  if (!session.exported) {
+    listen({
+      data: (versions: Versions) => run.setVersions(versions),
+      edits: (edits: Edits) => run.setEdits(edits),
+      solve: (news: SolveNews) => run.setSolve(news),
+    }, (gone) => store.set({ gone }));
+  }
+  render(<RunPage run={run} />, root);
+}
+
+async function start(root: HTMLElement): Promise<void> {
+  applyTheme(store);
+  const exported = exportedSource();
+  if (exported) return showRun(exported, root);
+  const session = await getJson<Session>('api/session');
+  document.title = `${session.name} – flocklift`;
+  if (session.kind === 'run') return showRun(serverSource(session), root);
+  store.set({ mode: 'steer', playing: true, trails: 12 });
+  render(<ScenePage session={session} store={store} />, root);
+}
+
+const root = document.getElementById('app') as HTMLElement;
+start(root).catch((error: unknown) => {
+  root.innerHTML = '';
+  const p = document.createElement('p');
+  p.className = 'fatal';
+  p.textContent = `The page cannot start: ${error instanceof Error ? error.message : String(error)}.`;
+  root.append(p);
+});

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A run as the page holds it: data, choices and clock, shared by all of its parts.
+
+import { Clock } from './clock';
+import { FrameCache, type BoxRows, type TrajectoryRows } from './frames';
+import { WINDOW_OF_EXPORT, type Source } from './source';
+import type { Store } from './state';
+import type { Edits, RunSession, SolveNews, Suspect, Versions } from './types';
+
+const ROWS_OF_WINDOW = 60000;
+
+export class Run {
+  readonly clock: Clock;
+  readonly boxes: FrameCache<BoxRows>;
+  readonly before: FrameCache<TrajectoryRows>;
+  readonly after: FrameCache<TrajectoryRows>;
+  readonly truth: FrameCache<TrajectoryRows>;
+  animals: string[];
+  versions: Versions;
+  edits: Edits;
+  suspects: Suspect[] = [];
+  solve: SolveNews | null = null;
+  command: string;
+  private watchers = new Set<() => void>();
+
+  constructor(
+    readonly source: Source,
+    readonly store: Store,
+  ) {
+    const s = source.session;
+    this.animals = s.versions.animals;
+    this.versions = s.versions;
+    this.edits = s.edits;
+    this.command = s.solve.command;
+    this.clock = new Clock(store, s.frames.first, s.frames.last, s.fps ?? 25);
+    const length = s.exported
+      ? WINDOW_OF_EXPORT
+      : Math.min(Math.max(Math.floor(ROWS_OF_WINDOW / Math.max(this.animals.length, 1)), 16), 256);
+    const cache = <T extends BoxRows | TrajectoryRows>(what: string) =>
+      new FrameCache<T>(
+        length,
+        (first, last) => source.window(what, first, last),
+        () => this.clock.redraw(),
+        (error) => store.fail(error),
+      );
+    this.boxes = cache('boxes');
+    this.before = cache('before');
+    this.after = cache('after');
+    this.truth = cache('truth');
+  }
+
+  get session(): RunSession {
+    return this.source.session;
+  }
+  // The flock that is shown.
+  flock(): FrameCache<TrajectoryRows> {
+    return this.store.get().table === 'after' ? this.after : this.before;
+  }
+  indexOf(id: string): number {
+    return this.animals.indexOf(id);
+  }
+
+  // Told of news that is no choice of the person: edits, solves, suspects.
+  watch(listener: () => void): () => void {
+    this.watchers.add(listener);
+    return () => this.watchers.delete(listener);
+  }
+  private tell(): void {
+    for (const watcher of this.watchers) watcher();
+    this.clock.redraw();
+  }
+
+  setVersions(versions: Versions): void {
+    const before = this.versions;
+    this.versions = versions;
+    this.animals = versions.animals;
+    if (versions.boxes !== before.boxes) this.boxes.renew();
+    if (versions.after !== before.after) {
+      this.after.renew();
+      if (before.after === 0 || this.store.get().table === 'before') {
+        this.store.set({ table: 'after' });
+      }
+    }
+    this.tell();
+  }
+  setEdits(edits: Edits): void {
+    this.edits = edits;
+    this.tell();
+  }
+  setSolve(news: SolveNews): void {
+    this.solve = news;
+    this.tell();
+  }
+  setSuspects(suspects: Suspect[]): void {
+    this.suspects = suspects;
+    this.tell();
+  }
+}

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The page of a run: footage and flock side by side, curves and the play bar under them, and a
+// panel for looking, solving, mending or sketching.
+
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+
+import { Charts } from './charts';
+import { FlightView } from './flight';
+import { FootageView } from './footage';
+import { Help } from './help';
+import { listenToKeys, type Key } from './keys';
+import { LookPanel } from './lookPanel';
+import { Mending } from './mending';
+import { MendPanel } from './mendPanel';
+import { Notices } from './notices';
+import type { Run } from './run';
+import { SketchPanel } from './sketchPanel';
+import { SolvePanel } from './solvePanel';
+import { hasWebGL } from './space';
+import { useValue, type Mode, type ViewName } from './state';
+import { ThemeButton, flipTheme } from './theme';
+import { SPEEDS, Transport } from './transport';
+import { VIEWS, ViewButtons } from './viewButtons';
+
+const MODES: [Mode, string][] = [
+  ['look', 'Look'],
+  ['solve', 'Re-solve'],
+  ['mend', 'Mend'],
+  ['sketch', 'Sketch'],
+];
+
+const MOUSE: [string, string][] = [
+  ['click', 'select an animal, in either picture'],
+  ['shift-click', 'select the second one'],
+  ['wheel', 'zoom at the pointer'],
+  ['drag', 'move the zoomed footage; turn the flock (right button: move it)'],
+  ['double click', 'the whole footage again'],
+];
+
+function keysOf(run: Run, mending: Mending): Key[] {
+  const { store, clock } = run;
+  const flip = (name: 'boxes' | 'ids' | 'bars' | 'grid' | 'solo' | 'loop' | 'panel' | 'help') => () =>
+    store.set({ [name]: !store.get()[name] });
+  const pace = (by: number) => () => {
+    const k = SPEEDS.indexOf(store.get().speed) + by;
+    store.set({ speed: SPEEDS[Math.min(Math.max(k, 0), SPEEDS.length - 1)] });
+  };
+  const next = (by: number) => () => {
+    const n = run.animals.length;
+    if (n > 0) store.set({ selected: (store.get().selected + by + n) % n, second: -1 });
+  };
+  const hide = () => {
+    const { selected, hidden } = store.get();
+    if (selected >= 0) store.set({ hidden: new Set([...hidden, selected]), selected: -1 });
+  };
+  const views = VIEWS.map(([view, words], k): Key => ({ keys: [String(k + 1)], shown: String(k + 1),
+    text: words, group: 'View', act: () => store.set({ view: view as ViewName }) }));
+  const keys: Key[] = [
+    { keys: [' '], shown: 'space', text: 'play or pause', group: 'Time', act: () => store.set({ playing: !store.get().playing }) },
+    { keys: ['ArrowRight', '.'], shown: '→', text: 'one frame on', group: 'Time', act: () => clock.step(1) },
+    { keys: ['ArrowLeft', ','], shown: '←', text: 'one frame back', group: 'Time', act: () => clock.step(-1) },
+    { keys: ['Shift+ArrowRight'], shown: 'shift →', text: 'ten frames on', group: 'Time', act: () => clock.step(10) },
+    { keys: ['Shift+ArrowLeft'], shown: 'shift ←', text: 'ten frames back', group: 'Time', act: () => clock.step(-10) },
+    { keys: ['Home'], shown: 'Home', text: 'first frame', group: 'Time', act: () => clock.go(clock.first) },
+    { keys: ['End'], shown: 'End', text: 'last frame', group: 'Time', act: () => clock.go(clock.end) },
+    { keys: ['o'], shown: 'o', text: 'over and over', group: 'Time', act: flip('loop') },
+    { keys: ['+', '='], shown: '+', text: 'faster', group: 'Time', act: pace(1) },
+    { keys: ['-'], shown: '−', text: 'slower', group: 'Time', act: pace(-1) },
+    ...views,
+    { keys: ['b'], shown: 'b', text: 'boxes', group: 'Show', act: flip('boxes') },
+    { keys: ['i'], shown: 'i', text: 'ids', group: 'Show', act: flip('ids') },
+    { keys: ['u'], shown: 'u', text: 'depth uncertainty', group: 'Show', act: flip('bars') },
+    { keys: ['g'], shown: 'g', text: 'ground grid', group: 'Show', act: flip('grid') },
+    { keys: ['t'], shown: 't', text: 'trails', group: 'Show', act: () => store.set({ trails: store.get().trails > 0 ? 0 : 30 }) },
+    { keys: ['l'], shown: 'l', text: 'light or dark', group: 'Show', act: () => flipTheme(store) },
+    { keys: ['m'], shown: 'm', text: 'panel', group: 'Show', act: flip('panel') },
+    { keys: ['?'], shown: '?', text: 'this help', group: 'Show', act: flip('help') },
+    { keys: ['Tab'], shown: 'Tab', text: 'next animal', group: 'Animals', act: next(1) },
+    { keys: ['Shift+Tab'], shown: 'shift Tab', text: 'animal before', group: 'Animals', act: next(-1) },
+    { keys: ['s'], shown: 's', text: 'solo: only the selected', group: 'Animals', act: flip('solo') },
+    { keys: ['h'], shown: 'h', text: 'hide the selected', group: 'Animals', act: hide },
+    { keys: ['Shift+H'], shown: 'shift h', text: 'show all', group: 'Animals', act: () => store.set({ hidden: new Set() }) },
+    { keys: ['Escape'], shown: 'Esc', text: 'select none, close', group: 'Animals', act: () => store.set({ selected: -1, second: -1, solo: false, help: false, message: '' }) },
+  ];
+  if (run.session.exported) return keys;
+  const mode = (m: Mode) => () => store.set({ mode: m, panel: true });
+  const mend = (group: string, key: string, text: string, act: () => void, shown = key): Key => ({
+    keys: [key], shown, text, group, act });
+  return [
+    ...keys,
+    mend('Panels', 'F1', 'look', mode('look')),
+    mend('Panels', 'F2', 're-solve', mode('solve')),
+    mend('Panels', 'F3', 'mend', mode('mend')),
+    mend('Panels', 'F4', 'sketch', mode('sketch')),
+    mend('Panels', 'Shift+B', 'flock before or after', () => {
+      if (run.versions.after > 0) store.set({ table: store.get().table === 'after' ? 'before' : 'after' });
+    }, 'shift b'),
+    mend('Mend', 'x', 'swap the two from here on', () => void mending.swap()),
+    mend('Mend', 'c', 'split here', () => void mending.split()),
+    mend('Mend', 'j', 'join the two', () => void mending.join()),
+    mend('Mend', 'Delete', 'delete the track', () => void mending.remove(), 'Del'),
+    mend('Mend', 'p', 'pin: then click the place', () => mending.choose('pin')),
+    mend('Mend', 'a', 'add: then click the place', () => mending.choose('add')),
+    { keys: ['z', 'Ctrl+z'], shown: 'z', text: 'undo', group: 'Mend', act: () => void mending.undo() },
+    { keys: ['y', 'Ctrl+y', 'Ctrl+Shift+z'], shown: 'y', text: 'redo', group: 'Mend', act: () => void mending.redo() },
+    mend('Mend', 'n', 'next place of doubt', () => mending.jump(1)),
+    mend('Mend', 'Shift+N', 'place of doubt before', () => mending.jump(-1), 'shift n'),
+  ];
+}
+
+export function RunPage({ run }: { run: Run }) {
+  const { store, session } = run;
+  const film = useRef<HTMLCanvasElement>(null);
+  const space = useRef<HTMLCanvasElement>(null);
+  const [footage, setFootage] = useState<FootageView | null>(null);
+  const [scale, setScale] = useState('');
+  const mending = useMemo(() => new Mending(run), [run]);
+  const keys = useMemo(() => keysOf(run, mending), [run]);
+  const mode = useValue(store, (s) => s.mode);
+  const panel = useValue(store, (s) => s.panel);
+  const table = useValue(store, (s) => s.table);
+  const webgl = useMemo(hasWebGL, []);
+  const hasFlock = session.has.before || run.versions.after > 0;
+
+  useEffect(() => {
+    listenToKeys(keys);
+    if (film.current) {
+      const view = new FootageView(film.current, run);
+      view.onPoint = (x, y, animal, second) => {
+        if (mending.click(x, y)) return;
+        store.set(second ? { second: animal } : { selected: animal, second: -1 });
+      };
+      setFootage(view);
+      Object.assign(window, { flocklift: { run, footage: view } });
+    }
+    if (space.current && webgl) {
+      const view = new FlightView(space.current, run);
+      setScale(`grid ${view.space.gridStep} m`);
+    }
+    if (!session.exported && !session.edits.reason) {
+      mending.refresh().catch((error: unknown) => store.fail(error));
+    }
+  }, []);
+
+  const nothing = !session.has.boxes && !hasFlock && !session.footage;
+  return (
+    <div class={'page' + (panel ? '' : ' no-panel')}>
+      <header class="top">
+        <h1>flocklift</h1>
+        <span class="name">{session.name}</span>
+        {!session.exported && (
+          <nav>{MODES.map(([m, words]) => (
+            <button class={mode === m && panel ? 'on' : ''}
+              onClick={() => store.set({ mode: m, panel: true })}>{words}</button>))}
+          </nav>
+        )}
+        <span class="space" />
+        <ThemeButton store={store} />
+        <button title="panel (m)" onClick={() => store.set({ panel: !panel })}>▤</button>
+        <button title="keys (?)" onClick={() => store.set({ help: true })}>?</button>
+      </header>
+      <main>
+        <section class="pane film">
+          <canvas ref={film} tabIndex={0} aria-label="footage with tracks" />
+          {!session.footage && <p class="words">{session.noFootage || 'There is no footage.'} {session.has.boxes ? 'The tracks are drawn without it.' : ''}</p>}
+        </section>
+        <section class="pane flight">
+          <canvas ref={space} tabIndex={0} aria-label="the flock in space" />
+          {webgl && hasFlock && (
+            <div class="overlay">
+              <ViewButtons store={store} film={session.camera !== null} />
+              <span class="tag">{table === 'after' ? 'solved here' : ''}</span>
+              <span class="tag end">{scale}</span>
+            </div>
+          )}
+          {!webgl && <p class="words">This browser has no WebGL 2, so the flock cannot be drawn in space. The footage, the curves and the tools work without it.</p>}
+          {webgl && !hasFlock && <p class="words">{nothing ? 'There is nothing to show yet.' : 'The folder holds no trajectories yet: run `flocklift reconstruct`, or Re-solve here.'}</p>}
+        </section>
+      </main>
+      <Charts run={run} />
+      <Transport run={run} />
+      {panel && (
+        <aside>
+          {(mode === 'look' || session.exported) && <LookPanel run={run} />}
+          {mode === 'solve' && !session.exported && <SolvePanel run={run} />}
+          {mode === 'mend' && !session.exported && <MendPanel run={run} mending={mending} />}
+          {mode === 'sketch' && !session.exported && footage && <SketchPanel run={run} footage={footage} />}
+        </aside>
+      )}
+      <Notices store={store} />
+      <Help store={store} keys={keys} mouse={MOUSE} />
+    </div>
+  );
+}

@@ -1,0 +1,258 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A running scene in space: animals, goals, predators, obstacles; and what a click or a drag in it
+// means.
+
+import * as THREE from 'three';
+
+import { Birds } from './birds';
+import { colourOf, ground } from './colours';
+import type { Look } from './live';
+import { Lines } from './lines';
+import { Space } from './space';
+import type { Store } from './state';
+import type { SceneSession } from './types';
+
+export interface Steering {
+  attract(position: number[]): void;
+  moveGoal(index: number, position: number[]): void;
+  movePredator(index: number, position: number[]): void;
+  lead(points: number[][]): void;
+}
+
+export class SwarmView {
+  readonly space: Space;
+  look: Look | null = null;
+  private birds: Birds;
+  private trails = new Lines(200000, 0.55);
+  private goals: THREE.Mesh[] = [];
+  private box: THREE.Object3D | null = null;
+  private dirty = true;
+  private past: Float32Array[] = [];
+  private stroke: THREE.Vector3[] | null = null;
+  private strokeLine = new Lines(4000, 1);
+  private species: number[] = []; // of each animal
+  private sizes: number[] = [];
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    private session: SceneSession,
+    private store: Store,
+    private steering: Steering,
+  ) {
+    this.space = new Space(canvas, session.camera, session.bounds, true, () => (this.dirty = true));
+    session.species.forEach((s, k) => {
+      for (let n = 0; n < s.count; n++) {
+        this.species.push(k);
+        this.sizes.push(s.wingspan);
+      }
+    });
+    for (let n = 0; n < session.predators; n++) {
+      this.species.push(-1);
+      this.sizes.push(1.6 * (this.sizes[0] ?? 1));
+    }
+    this.birds = new Birds(this.species.length);
+    this.space.world.add(this.birds.mesh, this.trails.object, this.strokeLine.object);
+    this.addObstacles();
+    const paint = () => {
+      this.space.paint(store.get().dark, store.get().grid);
+      this.paintBox();
+      this.dirty = true;
+    };
+    paint();
+    store.watch((state, before) => {
+      if (state.dark !== before.dark || state.grid !== before.grid) paint();
+      if (state.view !== before.view) this.space.look(state.view, 1);
+      this.dirty = true;
+    });
+    if (session.camera) this.space.look('orbit', 1);
+    this.listen(canvas);
+    const loop = () => {
+      if (this.dirty) this.draw();
+      requestAnimationFrame(loop);
+    };
+    requestAnimationFrame(loop);
+  }
+
+  take(look: Look): void {
+    if (this.look && look.time < this.look.time) this.past = [];
+    this.look = look;
+    this.past.push(look.position);
+    if (this.past.length > 40) this.past.shift();
+    this.dirty = true;
+  }
+
+  private addObstacles(): void {
+    for (const { vertices, triangles } of this.session.obstacles) {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute('position', new THREE.Float32BufferAttribute(vertices, 3));
+      geometry.setIndex(triangles);
+      geometry.computeVertexNormals();
+      this.space.world.add(new THREE.Mesh(geometry,
+        new THREE.MeshLambertMaterial({ color: 0x8f99a6, transparent: true, opacity: 0.55,
+          side: THREE.DoubleSide, flatShading: true })));
+    }
+  }
+  private paintBox(): void {
+    this.box?.removeFromParent();
+    const { low, high } = this.session.bounds;
+    const size = high.map((h, k) => h - low[k]);
+    if (!size.every(Number.isFinite)) return;
+    const edges = new THREE.EdgesGeometry(new THREE.BoxGeometry(size[0], size[1], Math.max(size[2], 1e-3)));
+    this.box = new THREE.LineSegments(edges,
+      new THREE.LineBasicMaterial({ color: ground(this.store.get().dark).ink, transparent: true, opacity: 0.5 }));
+    this.box.position.set(low[0] + size[0] / 2, low[1] + size[1] / 2, low[2] + size[2] / 2);
+    this.space.world.add(this.box);
+  }
+
+  private colourOfAnimal(k: number, dark: boolean): string {
+    if (this.species[k] === -1) return '#e0402e';
+    return colourOf(this.session.species.length > 1 ? this.species[k] : 0, dark);
+  }
+  private sizeOf(k: number): number {
+    const least = this.species.length > 2000 ? 0.009 : 0.016;
+    return Math.max(this.sizes[k] ?? 0.3, least * this.space.extent) * this.store.get().birdScale;
+  }
+
+  private draw(): void {
+    this.dirty = false;
+    const state = this.store.get();
+    const { look } = this;
+    if (look) {
+      const x = new THREE.Vector3(1, 0, 0);
+      const m = new THREE.Matrix4();
+      const q = new THREE.Quaternion();
+      const ahead = new THREE.Vector3();
+      const side = new THREE.Vector3();
+      const up = new THREE.Vector3();
+      this.birds.begin();
+      for (let k = 0; k < look.agents; k++) {
+        const v = look.velocity;
+        ahead.set(v[3 * k], v[3 * k + 1], v[3 * k + 2]).normalize();
+        if (ahead.lengthSq() < 0.5) ahead.copy(x);
+        side.set(-ahead.y, ahead.x, 0).normalize();
+        if (side.lengthSq() < 0.5) side.set(0, 1, 0);
+        up.crossVectors(ahead, side);
+        q.setFromRotationMatrix(m.makeBasis(ahead, side, up));
+        const p = look.position;
+        this.birds.add(p[3 * k], p[3 * k + 1], p[3 * k + 2], q, this.sizeOf(k),
+          this.colourOfAnimal(k, state.dark));
+      }
+      this.birds.end();
+      this.drawTrails(look);
+      this.drawGoals(look);
+      this.space.canvas.dataset.time = look.time.toFixed(3);
+    }
+    this.strokeLine.begin();
+    for (let k = 1; this.stroke && k < this.stroke.length; k++) {
+      const a = this.stroke[k - 1];
+      const b = this.stroke[k];
+      this.strokeLine.add(a.x, a.y, a.z, b.x, b.y, b.z, '#e6820a');
+    }
+    this.strokeLine.end();
+    this.space.aim(1);
+    this.space.render();
+  }
+
+  private drawTrails(look: Look): void {
+    const state = this.store.get();
+    this.trails.begin();
+    const length = Math.min(state.trails, this.past.length - 1, Math.floor(90000 / Math.max(look.agents, 1)));
+    for (let back = 0; back < length; back++) {
+      const b = this.past[this.past.length - 1 - back];
+      const a = this.past[this.past.length - 2 - back];
+      if (a.length !== b.length) break;
+      for (let k = 0; k < b.length; k += 3) {
+        this.trails.add(a[k], a[k + 1], a[k + 2], b[k], b[k + 1], b[k + 2],
+          this.colourOfAnimal(k / 3, state.dark));
+      }
+    }
+    this.trails.end();
+  }
+
+  private drawGoals(look: Look): void {
+    const count = look.goals.length / 3;
+    while (this.goals.length > count) this.goals.pop()?.removeFromParent();
+    while (this.goals.length < count) {
+      const reach = this.session.goals[this.goals.length]?.reach ?? 0;
+      const mesh = new THREE.Mesh(
+        new THREE.SphereGeometry(Math.max(reach, 0.015 * this.space.extent), 20, 14),
+        new THREE.MeshBasicMaterial({ color: 0xf0b429, transparent: true, opacity: 0.4 }));
+      this.goals.push(mesh);
+      this.space.world.add(mesh);
+    }
+    this.goals.forEach((goal, k) => goal.position.fromArray(look.goals, 3 * k));
+  }
+
+  // The goal or predator at a place of the canvas, if there is one.
+  private thingAt(x: number, y: number): { kind: 'goal' | 'predator'; index: number; at: THREE.Vector3 } | null {
+    const { look } = this;
+    if (!look) return null;
+    const near = (p: ArrayLike<number>, k: number) => {
+      const at = this.space.onCanvas(p[3 * k], p[3 * k + 1], p[3 * k + 2]);
+      return at !== null && Math.hypot(at[0] - x, at[1] - y) < 22;
+    };
+    for (let k = 0; k < this.session.predators; k++) {
+      const animal = look.agents - this.session.predators + k;
+      if (near(look.position, animal)) {
+        return { kind: 'predator', index: k, at: new THREE.Vector3().fromArray(look.position, 3 * animal) };
+      }
+    }
+    for (let k = 0; k < look.goals.length / 3; k++) {
+      if (near(look.goals, k)) {
+        return { kind: 'goal', index: k, at: new THREE.Vector3().fromArray(look.goals, 3 * k) };
+      }
+    }
+    return null;
+  }
+
+  private listen(canvas: HTMLCanvasElement): void {
+    const placeOf = (e: PointerEvent): [number, number] => {
+      const box = canvas.getBoundingClientRect();
+      return [e.clientX - box.left, e.clientY - box.top];
+    };
+    // Level ground for what walks, the plane that faces the viewer for what flies.
+    const flat = this.session.dimensions === 2;
+    const toPlane = (p: [number, number], through: THREE.Vector3) => this.space.toPlane(...p, through, flat);
+    canvas.addEventListener('pointerdown', (event) => {
+      const start = placeOf(event);
+      const thing = event.button === 0 ? this.thingAt(...start) : null;
+      const draws = this.store.get().mode === 'sketch' && event.button === 0;
+      const through = thing?.at ?? this.space.centre.clone();
+      if (flat) through.z = 0;
+      if (thing || draws) this.space.controls.enabled = false;
+      if (draws) this.stroke = [];
+      let moved = false;
+      let sent = 0;
+      const move = (e: PointerEvent) => {
+        const now = placeOf(e);
+        moved ||= Math.hypot(now[0] - start[0], now[1] - start[1]) > 4;
+        const at = toPlane(now, through);
+        if (!at || !moved) return;
+        if (draws) {
+          this.stroke?.push(at);
+          this.dirty = true;
+        } else if (thing && performance.now() - sent > 40) {
+          sent = performance.now();
+          if (thing.kind === 'goal') this.steering.moveGoal(thing.index, at.toArray());
+          else this.steering.movePredator(thing.index, at.toArray());
+        }
+      };
+      const up = (e: PointerEvent) => {
+        removeEventListener('pointermove', move);
+        removeEventListener('pointerup', up);
+        this.space.controls.enabled = !['camera', 'follow'].includes(this.store.get().view);
+        if (draws) {
+          const line = this.stroke ?? [];
+          if (line.length > 2) this.steering.lead(line.map((p) => p.toArray()));
+        } else if (!moved && !thing && e.button === 0) {
+          const at = toPlane(start, through);
+          if (at) this.steering.attract(at.toArray());
+        }
+      };
+      addEventListener('pointermove', move);
+      addEventListener('pointerup', up);
+    }, { capture: true });
+  }
+}

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tools/view/track_editor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "simulate/core/atomic_file.h"
+#include "simulate/core/check.h"
+#include "tools/stage.h"
+#include "track/correct.h"
+
+namespace flocklift {
+namespace {
+
+using Kind = Correction::Kind;
+
+bool HasRowIn(const Tracklet& tracklet, int frame) {
+  const auto& d = tracklet.detections;
+  const auto at = std::lower_bound(d.begin(), d.end(), frame,
+                                   [](const Detection& a, int f) { return a.frame < f; });
+  return at != d.end() && at->frame == frame;
+}
+
+// Ends of lines, the last line's included; 0 stands for nothing of the text.
+std::vector<std::size_t> LineEnds(const std::string& text) {
+  std::vector<std::size_t> ends = {0};
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text[k] == '\n' || k + 1 == text.size()) ends.push_back(k + 1);
+  }
+  return ends;
+}
+
+}  // namespace
+
+CorrectionsFile ReadCorrectionsFile(const std::filesystem::path& path,
+                                    const std::string& applied_sha256) {
+  CorrectionsFile file{.path = path, .applied = {}, .pending = {}};
+  std::ifstream stream(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::size_t applied = 0;
+  if (!applied_sha256.empty()) {
+    const std::vector<std::size_t> ends = LineEnds(text);
+    const auto end = std::find_if(ends.rbegin(), ends.rend(), [&](std::size_t at) {
+      return Sha256OfText(std::string_view(text).substr(0, at)) == applied_sha256;
+    });
+    if (end == ends.rend()) {
+      throw InputError(path.string(), 0, "is not the file that the tracks were corrected with",
+                       "run `flocklift track` or `run` again with it");
+    }
+    applied = *end;
+  }
+  std::istringstream rest(text.substr(applied));
+  file.pending = ReadCorrections(rest, path.string());
+  file.applied = text.substr(0, applied);
+  if (!file.applied.empty() && file.applied.back() != '\n') file.applied += '\n';
+  return file;
+}
+
+std::string LineOf(const Correction& c) {
+  switch (c.kind) {
+    case Kind::kSwap:
+      return fmt::format("swap {} {} {}", c.id, c.other_id, c.first_frame);
+    case Kind::kSplit:
+      return fmt::format("split {} {}", c.id, c.first_frame);
+    case Kind::kJoin:
+      return fmt::format("join {} {}", c.id, c.other_id);
+    case Kind::kDelete:
+      return c.first_frame == 0 ? fmt::format("delete {}", c.id)
+                                : fmt::format("delete {} {} {}", c.id, c.first_frame, c.last_frame);
+    case Kind::kPin:
+      return fmt::format("pin {} {} {} {}", c.id, c.first_frame, c.point.x, c.point.y);
+    case Kind::kAdd:
+      return fmt::format("add {} {} {}", c.first_frame, c.point.x, c.point.y);
+  }
+  return {};
+}
+
+TrackEditor::TrackEditor(const Tracks& tracks, int frame_count, CorrectionsFile file)
+    : fps_(tracks.fps), frame_count_(frame_count), file_(std::move(file)) {
+  for (const Tracklet& tracklet : tracks.tracklets) {
+    tracks_.emplace(tracklet.id, tracklet);
+    next_id_ = std::max(next_id_, tracklet.id + 1);
+  }
+  for (const Correction& correction : file_.pending) done_.push_back(Change(correction));
+}
+
+TrackEditor::Step TrackEditor::Change(const Correction& correction) {
+  Step step{.correction = correction, .before = {}, .after = {}, .next_id_before = next_id_};
+  Tracks named;
+  named.fps = fps_;
+  const auto take = [&](Id id) {
+    const auto found = tracks_.find(id);
+    if (found != tracks_.end() && step.before.emplace(id, found->second).second) {
+      named.tracklets.push_back(found->second);
+    }
+  };
+  if (correction.kind == Kind::kAdd) {  // it is as large as the others of the frame
+    for (const auto& [id, tracklet] : tracks_) {
+      if (HasRowIn(tracklet, correction.first_frame)) named.tracklets.push_back(tracklet);
+    }
+    if (named.tracklets.empty()) {
+      for (const auto& [id, tracklet] : tracks_) named.tracklets.push_back(tracklet);
+    }
+  } else {
+    take(correction.id);
+    if (correction.kind == Kind::kSwap || correction.kind == Kind::kJoin) {
+      take(correction.other_id);
+    }
+  }
+  Id next_id = next_id_;
+  ApplyCorrections({&correction, 1}, file_.path.string(), frame_count_, &named, &next_id);
+  for (const auto& [id, tracklet] : step.before) tracks_.erase(id);
+  for (Tracklet& tracklet : named.tracklets) {
+    const bool is_new = tracklet.id >= next_id_;
+    if (!is_new && !step.before.contains(tracklet.id)) continue;  // looked at only
+    step.after.push_back(tracklet.id);
+    tracks_[tracklet.id] = std::move(tracklet);
+  }
+  next_id_ = next_id;
+  touched_ = step.after;
+  for (const auto& [id, tracklet] : step.before) touched_.push_back(id);
+  return step;
+}
+
+void TrackEditor::Revert(const Step& step) {
+  for (const Id id : step.after) tracks_.erase(id);
+  for (const auto& [id, tracklet] : step.before) tracks_[id] = tracklet;
+  next_id_ = step.next_id_before;
+  touched_ = step.after;
+  for (const auto& [id, tracklet] : step.before) touched_.push_back(id);
+}
+
+void TrackEditor::Apply(const Correction& correction) {
+  Step step = Change(correction);
+  std::vector<const Correction*> in_force = InForce();
+  in_force.push_back(&step.correction);
+  try {
+    WriteFile(in_force);
+  } catch (...) {
+    Revert(step);
+    throw;
+  }
+  done_.push_back(std::move(step));
+  undone_.clear();
+}
+
+bool TrackEditor::Undo() {
+  if (done_.empty()) return false;
+  std::vector<const Correction*> in_force = InForce();
+  in_force.pop_back();
+  WriteFile(in_force);
+  Revert(done_.back());
+  undone_.push_back(done_.back().correction);
+  done_.pop_back();
+  return true;
+}
+
+bool TrackEditor::Redo() {
+  if (undone_.empty()) return false;
+  std::vector<Correction> rest = undone_;
+  rest.pop_back();
+  Apply(Correction(undone_.back()));
+  undone_ = std::move(rest);
+  return true;
+}
+
+Tracks TrackEditor::Result() const {
+  Tracks tracks;
+  tracks.fps = fps_;
+  tracks.tracklets.reserve(tracks_.size());
+  for (const auto& [id, tracklet] : tracks_) tracks.tracklets.push_back(tracklet);
+  return tracks;
+}
+
+std::vector<std::string> TrackEditor::Lines() const {
+  std::vector<std::string> lines;
+  for (const Step& step : done_) lines.push_back(LineOf(step.correction));
+  return lines;
+}
+
+std::vector<const Correction*> TrackEditor::InForce() const {
+  std::vector<const Correction*> in_force;
+  for (const Step& step : done_) in_force.push_back(&step.correction);
+  return in_force;
+}
+
+void TrackEditor::WriteFile(const std::vector<const Correction*>& corrections) const {
+  std::string text = file_.applied;
+  for (const Correction* correction : corrections) text += LineOf(*correction) + '\n';
+  if (text.empty()) {  // as it was before the first correction
+    std::filesystem::remove(file_.path);
+  } else {
+    WriteTextFile(file_.path, text);
+  }
+}
+
+}  // namespace flocklift
