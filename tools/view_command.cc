@@ -81,10 +81,17 @@ void RunView(const ViewCommand& command) {
   }
   std::optional<fs::path> truth;
   if (!command.truth.empty()) truth = command.truth;
-  FolderView view(
-      {.folder = command.what, .truth = truth, .fps = command.fps, .threads = command.threads});
+  std::unique_ptr<FolderView> folder;  // the one or the other; they outlive the server
+  std::unique_ptr<SceneView> scene;
   HttpServer server(command.port);
-  view.Serve(&server);
+  if (fs::is_directory(command.what)) {
+    folder = std::make_unique<FolderView>(FolderViewOptions{
+        .folder = command.what, .truth = truth, .fps = command.fps, .threads = command.threads});
+    folder->Serve(&server);
+  } else {
+    scene = std::make_unique<SceneView>(command.what, command.out, command.threads);
+    scene->Serve(&server);
+  }
   fmt::print("{}\n", server.guard().Address());
   std::fflush(stdout);
   if (!command.quiet) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <random>
 #include <utility>
 
@@ -20,6 +21,14 @@ bool EqualInConstantTime(std::string_view a, std::string_view b) {
     difference |= static_cast<unsigned char>(a[k]) ^ static_cast<unsigned char>(b[k]);
   }
   return difference == 0;
+}
+
+// Nothing, or a whole number of bytes that may be read.
+bool IsBodyLength(const std::string& text) {
+  std::size_t length = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), length);
+  return text.empty() || (error == std::errc{} && end == text.data() + text.size() &&
+                          length <= Guard::kMaxBodyBytes);
 }
 
 }  // namespace
@@ -55,6 +64,7 @@ std::optional<Refusal> Guard::Refuse(const RequestHead& head) const {
   if (head.method != "GET" && head.method != "POST") {
     return Refusal{405, "only GET and POST are known"};
   }
+  if (!IsBodyLength(head.content_length)) return Refusal{413, "the body is too long"};
   if (head.has_transfer_encoding) return Refusal{411, "say how long the body is"};
   if (head.range.find(',') != std::string::npos) return Refusal{416, "ask for one range"};
   if (head.method == "POST") {

@@ -30,6 +30,7 @@ struct RequestHead {
   std::string fetch_site = {};            // Sec-Fetch-Site; empty: none
   std::string content_type = {};          // empty: none
   std::string range = {};                 // empty: none
+  std::string content_length = {};        // empty: none
   bool has_transfer_encoding = false;     // a body of unknown length
   std::size_t header_bytes = 0;           // of all headers together
 };

@@ -37,6 +37,7 @@ RequestHead HeadOf(const httplib::Request& request) {
   head.fetch_site = request.get_header_value("Sec-Fetch-Site");
   head.content_type = request.get_header_value("Content-Type");
   head.range = request.get_header_value("Range");
+  head.content_length = request.get_header_value("Content-Length");
   head.has_transfer_encoding = request.has_header("Transfer-Encoding");
   for (const auto& [name, value] : request.headers) head.header_bytes += name.size() + value.size();
   return head;
@@ -99,7 +100,6 @@ struct HttpServer::Impl {
     for (const auto& [name, value] : Guard::AnswerHeaders()) response.set_header(name, value);
     if (const auto refusal = guard->Refuse(HeadOf(request))) {
       response.status = refusal->status;
-      response.set_header("Connection", "close");  // what is left of it is not read
       response.set_content(AsError(refusal->reason), "application/json");
     }
   }
@@ -122,7 +122,7 @@ struct HttpServer::Impl {
     }
     if (found == handlers.end()) return Fail(404, "there is nothing at " + own.path, response);
     const HttpReply reply = found->second(own);
-    response.status = reply.status;
+    if (!reply.file) response.status = reply.status;  // else 200 or 206, as it is asked for
     if (!reply.download_name.empty()) {
       response.set_header("Content-Disposition",
                           fmt::format("attachment; filename=\"{}\"", reply.download_name));
@@ -154,8 +154,8 @@ HttpServer::HttpServer(int port) : impl_(std::make_unique<Impl>()) {
   httplib::Server& server = impl_->server;
   server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   server.set_tcp_nodelay(true);
-  server.set_keep_alive_max_count(100000);
-  server.set_keep_alive_timeout(10);
+  // One request a connection: what is left of a refused one is never taken for the next.
+  server.set_keep_alive_max_count(1);
   server.set_read_timeout(5);
   server.set_write_timeout(5);
   server.set_payload_max_length(Guard::kMaxBodyBytes);

@@ -65,7 +65,8 @@ void FindJumps(const Tracks& tracks, std::vector<Suspect>* suspects) {
       if (!bend || *bend < kLeastJump * sd || *bend < kJumpOfSize * SizeOf(t.detections[k])) {
         continue;
       }
-      suspects->push_back({t.detections[k].frame, t.id, 0, "jump", 1 - kLeastJump * sd / *bend});
+      suspects->push_back(
+          {t.detections[k].frame, t.id, 0, "jump", 0.75 * (1 - kLeastJump * sd / *bend)});
     }
   }
 }

@@ -6,7 +6,7 @@
 //            exchanged there. 0.9 exp(-2 d / size), raised towards 1 when exchanging the two would
 //            make both paths straighter.
 //   jump     the image motion changes by J robust standard deviations of all tracks' changes, and
-//            by a good part of a size: 1 - 8 / J for J > 8
+//            by a good part of a size: 0.75 (1 - 8 / J) for J > 8
 //   gap      G frames in a row are interpolated: 0.7 (1 - exp(-G / 8))
 //   start, end   a track begins or ends in the middle of the picture and of the film: 0.5 far from
 //            the edge, falling to 0 at one size from it

@@ -103,6 +103,11 @@ TEST(Guard, RefusesWhatItDoesNotKnow) {
   RequestHead ranges = Good();
   ranges.range = "bytes=0-1,4-5";
   EXPECT_EQ(StatusOf(ranges), 416);
+  for (const char* length : {"1048577", "4000000000", "-1", "1x", "99999999999999999999999"}) {
+    RequestHead head = Good();
+    head.content_length = length;
+    EXPECT_EQ(StatusOf(head), 413) << length;
+  }
   RequestHead large = Good();
   large.header_bytes = Guard::kMaxHeaderBytes + 1;
   EXPECT_EQ(StatusOf(large), 431);

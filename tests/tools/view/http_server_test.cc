@@ -185,6 +185,20 @@ TEST_F(Server, BoundsWhatItReads) {
   EXPECT_EQ(writes_, 0);
 }
 
+TEST_F(Server, TakesNoRefusedBodyForARequest) {
+  const std::string inner = Head("POST", "/api/write") + Origin() +
+                            "Content-Type: application/json\r\nContent-Length: 2\r\n\r\n{}";
+  std::string outer =
+      Head("POST", "/api/write") + "Origin: http://evil.example\r\n" +
+      "Content-Type: text/plain\r\nContent-Length: " + std::to_string(inner.size()) + "\r\n\r\n" +
+      inner;
+  outer.replace(outer.find("Connection: close"), 17, "Connection: keep-alive");
+  const std::string answer = Talk(server_.port(), outer);
+  EXPECT_THAT(answer, StartsWith("HTTP/1.1 403"));
+  EXPECT_EQ(answer.find("HTTP/1.1", 8), std::string::npos) << answer;
+  EXPECT_EQ(writes_, 0);
+}
+
 TEST_F(Server, SurvivesWhatIsNoHttp) {
   for (const std::string& bytes :
        std::vector<std::string>{"\r\n\r\n", std::string(100, '\0'), "GET\r\n\r\n", "hello\r\n\r\n",

@@ -28,7 +28,7 @@ function rangeOf(knob: Knob, value: number): [number, number] {
 }
 
 export function stepOf(low: number, high: number): number {
-  return 10 ** Math.floor(Math.log10((high - low) / 200));
+  return 10 ** Math.floor(Math.log10((high - low) / 2000));
 }
 
 // Adds the knob to a folder; `turned` hears of every change. Setting beyond the slider's end is
