@@ -29,9 +29,11 @@
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/state_archive.h"
 #include "simulate/fields/grid_field.h"
+#include "simulate/flock/bodies.h"
 #include "simulate/flock/kernels/morph_kernel.h"
 #include "simulate/flock/minimum_distance.h"
 #include "simulate/flock/morph_options.h"
+#include "simulate/flock/morph_path.h"
 #include "simulate/shapes/tetra_mesh.h"
 
 namespace flocklift {
@@ -77,6 +79,9 @@ class FlockMorph {
   std::uint32_t TargetOf(std::size_t tetra) const { return target_[rank_[tetra]]; }
   Vec3d Position(std::size_t tetra) const;
   Vec3d Velocity(std::size_t tetra) const;  // of the last step [m/s]
+  // Of the ranks first .. last - 1, to the same places of columns of float or double.
+  template <typename T>
+  void CopyStates(std::size_t first, std::size_t last, Bodies<T>* to) const;
   float Progress(std::size_t tetra) const { return progress_[rank_[tetra]]; }
   Vec3<float> Vertex(std::size_t tetra, int corner) const;
 
@@ -86,6 +91,7 @@ class FlockMorph {
     Column x, y, z;
     void Resize(std::size_t n);
     void Set(std::size_t k, const Vec3d& v);
+    void Set(std::size_t k, const Vec3<float>& v);
     Vec3d At(std::size_t k) const { return {x[k], y[k], z[k]}; }
   };
 
@@ -93,8 +99,7 @@ class FlockMorph {
   void SetSegment(std::size_t rank, std::uint32_t segment);
   void PassGates(std::size_t rank);
   void Depart();
-  void BlowStyle(ThreadPool* pool);
-  Vec3d StyleVelocity(std::size_t rank);
+  void BlowStyle(std::size_t first, std::size_t last);
   void Avoid(std::size_t first, std::size_t last);
   void KeepDistance(ThreadPool* pool);
   void Settle();
@@ -105,7 +110,7 @@ class FlockMorph {
   double dt_;
   std::uint64_t seed_;
   const MorphKernelVariant* kernel_ = nullptr;
-  std::vector<Vec3d> path_;
+  MorphPath path_;
   ScalarField obstacles_;
   TargetRegion region_;
   std::size_t count_ = 0, departed_ = 0, first_ = 0;  // ranks first_ .. departed_ - 1 fly
@@ -120,10 +125,24 @@ class FlockMorph {
   std::array<Column, 12> vertex_;
 
   MinimumDistance<float> minimum_distance_;
-  std::vector<std::uint32_t> crowd_;  // ranks
-  Columns3 crowd_position_;
-  Column crowd_room_;
+  Column room_;  // half of the distance that each keeps [m]
 };
+
+template <typename T>
+void FlockMorph::CopyStates(std::size_t first, std::size_t last, Bodies<T>* to) const {
+  const T rate = static_cast<T>(1 / dt_);
+  const auto copy = [&](const Column& now, const Column& before, std::vector<T>* x,
+                        std::vector<T>* v) {
+    for (std::size_t k = first; k < last; ++k) {
+      const T here = static_cast<T>(now[k]);
+      (*x)[k] = here;
+      (*v)[k] = (here - static_cast<T>(before[k])) * rate;
+    }
+  };
+  copy(position_.x, before_.x, &to->x, &to->vx);
+  copy(position_.y, before_.y, &to->y, &to->vy);
+  copy(position_.z, before_.z, &to->z, &to->vz);
+}
 
 }  // namespace flocklift
 

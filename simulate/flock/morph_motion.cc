@@ -119,7 +119,7 @@ class MorphMotion final : public Motion<T> {
         world_(*context.world),
         path_(context.path),
         morph_(PrepareMorph(p, context, herd->size())) {
-    Copy(0, morph_.size(), herd);
+    morph_.CopyStates(0, morph_.size(), &herd->now);
   }
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
@@ -129,7 +129,8 @@ class MorphMotion final : public Motion<T> {
     }
     const std::size_t first = morph_.FirstInFlight();  // those that arrive now included
     morph_.Step(pool);
-    Copy(first, morph_.EndInFlight(), herd);
+    // Tetrahedra are numbered by rank, and the herd keeps that order.
+    morph_.CopyStates(first, morph_.EndInFlight(), &herd->now);
   }
 
   void Retune(const ModelParameters& parameters) override {
@@ -143,19 +144,13 @@ class MorphMotion final : public Motion<T> {
 
   void AppendCorners(ThreadPool* pool, std::vector<Vec3<float>>* corners) override {
     morph_.UpdateVertices(pool);
+    corners->reserve(corners->size() + 4 * morph_.size());
     for (std::size_t k = 0; k < morph_.size(); ++k) {
       for (int c = 0; c < 4; ++c) corners->push_back(morph_.Vertex(k, c));
     }
   }
 
  private:
-  // Tetrahedra are numbered by rank, and the herd keeps that order.
-  void Copy(std::size_t first, std::size_t last, Herd<T>* herd) const {
-    for (std::size_t k = first; k < last; ++k) {
-      herd->now.Set(k, Cast<T>(morph_.Position(k)), Cast<T>(morph_.Velocity(k)));
-    }
-  }
-
   double start_;
   const World& world_;
   std::string path_;
