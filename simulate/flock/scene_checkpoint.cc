@@ -3,7 +3,6 @@
 
 #include "simulate/flock/scene_checkpoint.h"
 
-#include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
@@ -26,6 +25,13 @@ struct Motion6 {
 std::string BytesOf(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Whether a file holds at least so much.
+bool Holds(const fs::path& path, std::uintmax_t bytes) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  return bytes == 0 || (!error && size >= bytes);
 }
 
 // The parts of `state`.
@@ -56,17 +62,19 @@ SceneCheckpoint::SceneCheckpoint(fs::path folder, std::chrono::seconds every, co
   }
 }
 
-void SceneCheckpoint::Resume(Engine* engine, std::int64_t* frame, Trajectories* truth) {
+void SceneCheckpoint::Resume(Engine* engine, std::int64_t* frame, Trajectories* truth,
+                             AnimatedMeshWriter* tetrahedra, std::size_t corners) {
   if (folder_.empty()) return;
   const std::string bytes = BytesOf(folder_ / "state");
   SavedState state;
   const std::size_t animals = truth->trajectories.size();
   const std::uintmax_t frame_size = animals * sizeof(Motion6);
-  std::error_code error;
+  const std::uintmax_t corners_size = tetrahedra != nullptr ? corners * sizeof(Vec3<float>) : 0;
   if (!Parse(bytes, fingerprint_, &state) ||
-      (state.frames > 0 && fs::file_size(folder_ / "frames", error) < state.frames * frame_size) ||
-      error) {
-    fs::remove_all(folder_, error);
+      !Holds(folder_ / "frames", state.frames * frame_size) ||
+      !Holds(folder_ / "corners", state.frames * corners_size)) {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
     return;
   }
   engine->Load(state.engine);
@@ -86,6 +94,29 @@ void SceneCheckpoint::Resume(Engine* engine, std::int64_t* frame, Trajectories* 
   if (state.frames > 0) fs::resize_file(folder_ / "frames", state.frames * frame_size);
   kept_frames_ = state.frames;
   *frame = state.frame + 1;
+  if (tetrahedra != nullptr && state.frames > 0) {
+    std::ifstream shapes(folder_ / "corners", std::ios::binary);
+    std::vector<Vec3<float>> shape(corners);
+    for (std::uint64_t f = 0; f < state.frames; ++f) {
+      shapes.read(reinterpret_cast<char*>(shape.data()),
+                  static_cast<std::streamsize>(corners_size));
+      if (!shapes) throw std::runtime_error((folder_ / "corners").string() + " cannot be read");
+      tetrahedra->AddFrame(shape);
+    }
+    fs::resize_file(folder_ / "corners", state.frames * corners_size);
+  }
+}
+
+void SceneCheckpoint::AddCorners(std::span<const Vec3<float>> corners) {
+  if (folder_.empty()) return;
+  if (!corners_.is_open()) {
+    fs::create_directories(folder_);
+    // Whatever was there before this run's first frame and is not of it is gone.
+    corners_.open(folder_ / "corners",
+                  std::ios::binary | (kept_frames_ > 0 ? std::ios::app : std::ios::trunc));
+  }
+  corners_.write(reinterpret_cast<const char*>(corners.data()),
+                 static_cast<std::streamsize>(corners.size_bytes()));
 }
 
 void SceneCheckpoint::KeepIfDue(const Engine& engine, std::int64_t frame,
@@ -112,6 +143,9 @@ void SceneCheckpoint::Keep(const Engine& engine, std::int64_t frame, const Traje
   }
   file.close();
   if (!file) throw std::runtime_error((folder_ / "frames").string() + " cannot be written");
+  if (corners_.is_open() && !corners_.flush()) {
+    throw std::runtime_error((folder_ / "corners").string() + " cannot be written");
+  }
   StateWriter header;
   header.Put(frame);
   header.Put(static_cast<std::uint64_t>(frames));
@@ -120,6 +154,7 @@ void SceneCheckpoint::Keep(const Engine& engine, std::int64_t frame, const Traje
 
 void SceneCheckpoint::Remove() {
   if (folder_.empty()) return;
+  corners_.close();
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
 }

@@ -271,13 +271,16 @@ SceneResult SimulateScene(const Scene& scene, const SimulateOptions& options,
     tetrahedra.reset(new AnimatedMeshWriter(
         OpenTetrahedra(options.tetrahedra, scene, population.world, corners)));
   }
-  SceneCheckpoint checkpoint(tetrahedra ? std::filesystem::path{} : options.checkpoint,
-                             options.checkpoint_every, scene);
+  SceneCheckpoint checkpoint(options.checkpoint, options.checkpoint_every, scene);
   std::int64_t frame = 1 - warmup_frames;
-  checkpoint.Resume(&*engine, &frame, &result.truth);
+  checkpoint.Resume(&*engine, &frame, &result.truth, tetrahedra.get(), corners);
   for (; frame <= frames; ++frame) {
     if (frame > 0) Record(engine->State(), static_cast<int>(frame), &result.truth);
-    if (frame > 0 && tetrahedra) tetrahedra->AddFrame(engine->TetrahedraCorners());
+    if (frame > 0 && tetrahedra) {
+      const std::vector<Vec3<float>> shape = engine->TetrahedraCorners();
+      tetrahedra->AddFrame(shape);
+      checkpoint.AddCorners(shape);
+    }
     if (frame < frames) {
       Timed(&result.step_wall_s, &result.step_cpu_s, [&] {
         for (int k = 0; k < scene.substeps; ++k) engine->Step();

@@ -38,8 +38,7 @@ struct SimulateOptions {
   int threads = 1;                            // 0: all that the machine has
   std::filesystem::path checkpoint = {};      // a folder to go on from; empty: none is kept
   std::chrono::seconds checkpoint_every{30};  // of wall time
-  // Animals that are tetrahedra as one animated mesh (GLB); empty: none is written. A scene that
-  // writes it keeps no checkpoint.
+  // Animals that are tetrahedra as one animated mesh (GLB); empty: none is written.
   std::filesystem::path tetrahedra = {};
 };
 

@@ -5,10 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "simulate/flock/simulate_scene.h"
+#include "simulate/shapes/solid_meshes.h"
 
 namespace flocklift {
 namespace {
@@ -74,6 +80,68 @@ TEST(SceneCheckpoint, AKilledRunEndsWithTheSameBytes) {
   EXPECT_EQ(resumed.steps, whole.steps);
   EXPECT_EQ(resumed.mean_neighbours, whole.mean_neighbours);
   EXPECT_FALSE(fs::exists(folder.path));
+}
+
+// A cube of tetrahedra that becomes another.
+Scene MorphingScene(const fs::path& folder) {
+  fs::create_directories(folder);
+  std::ofstream mesh(folder / "cube.obj");
+  const TriangleMesh cube = BoxMesh({-1, -1, -1}, {1, 1, 1});
+  for (const Vec3d& v : cube.vertices) mesh << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
+  for (const auto& t : cube.triangles) {
+    mesh << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  }
+  mesh.close();
+  Scene scene;
+  scene.fps = 20;
+  scene.substeps = 2;
+  scene.duration = 2;
+  SpeciesSpec species;
+  species.count = 40;
+  species.model.name = "morph";
+  species.model.parameters = {{"departure_time", 0.5}, {"d_min", 0.05}};
+  species.start_shape = "here";
+  species.shape = "there";
+  scene.species = {species};
+  for (const auto& [name, x] : {std::pair("here", 0.0), std::pair("there", 12.0)}) {
+    ShapeSpec shape;
+    shape.name = name;
+    shape.key_frames = {{folder / "cube.obj", 0}};
+    shape.placement.position = {x, 0, 0};
+    scene.shapes.push_back(shape);
+  }
+  return scene;
+}
+
+TEST(SceneCheckpoint, AKilledMorphEndsWithTheSameMesh) {
+  const Folder folder;
+  const Scene scene = MorphingScene(folder.path / "meshes");
+  const fs::path checkpoint = folder.path / "checkpoint", mesh = folder.path / "mesh.glb";
+  const auto bytes = [](const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  SimulateOptions options{.threads = 1,
+                          .checkpoint = {},
+                          .checkpoint_every = std::chrono::seconds(0),
+                          .tetrahedra = folder.path / "whole.glb"};
+  const SceneResult whole = SimulateScene(scene, options, {});
+  options.checkpoint = checkpoint;
+  options.tetrahedra = mesh;
+  const auto stop = [](std::int64_t done, std::int64_t total) {
+    if (done > total / 2) throw std::runtime_error("killed");
+  };
+  EXPECT_THROW(SimulateScene(scene, options, stop), std::runtime_error);
+  EXPECT_FALSE(fs::exists(mesh));
+  std::ofstream(checkpoint / "corners", std::ios::app | std::ios::binary) << "half a frame";
+  std::int64_t first = -1;
+  const SceneResult resumed = SimulateScene(
+      scene, options,
+      [&first](std::int64_t done, std::int64_t) { first = first < 0 ? done : first; });
+  EXPECT_GT(first, 15);  // it did not start again
+  ExpectSame(resumed.truth, whole.truth);
+  EXPECT_EQ(bytes(mesh), bytes(folder.path / "whole.glb"));
+  EXPECT_FALSE(fs::exists(checkpoint));
 }
 
 TEST(SceneCheckpoint, FramesAfterTheStateAreCutOff) {
