@@ -34,19 +34,17 @@ void SumOne(const Rules& rules, const PairTask<T>& task, std::size_t k, const Vi
   task.neighbours[k] = sum.Neighbours();
 }
 
-// The same with the eight sums of the kernels that go animal by animal (pair_kernel_inl.h):
-// neighbours are those within `reach`, and the n-th is added to sum n % 8.
+// The same with the eight sums of the kernels that go animal by animal (shape_kernel_inl.h):
+// neighbours are those that are felt, and the n-th is added to sum n % 8.
 template <typename T, typename Rules, typename Visit>
-void SumOneOfEight(const Rules& rules, double reach, const PairTask<T>& task, std::size_t k,
-                   const Visit& visit) {
+void SumOneOfEight(const Rules& rules, const PairTask<T>& task, std::size_t k, const Visit& visit) {
   const Bodies<T>& s = task.bodies;
   const Vec3<T> x = s.Position(k), v = s.Velocity(k);
-  const T margin = static_cast<T>(kReachMargin * reach);
   typename Rules::Sums eight[8];
   std::size_t count = 0;
   visit([&](std::uint32_t j) {
     const Vec3<T> dx = s.Position(j) - x;
-    if (Dot(dx, dx) <= margin * margin) eight[count++ % 8] += rules.Pair(dx, s.Velocity(j) - v);
+    if (rules.Felt(dx)) eight[count++ % 8] += rules.Pair(dx, s.Velocity(j) - v);
   });
   for (std::size_t half = 4; half > 0; half /= 2) {
     for (std::size_t n = 0; n < half; ++n) eight[n] += eight[n + half];
@@ -72,7 +70,7 @@ void SumLists(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
 }
 
 template <typename T, typename Rules>
-void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool, double reach = 0) {
+void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
   if (task.nearest != nullptr) return SumLists(rules, task, pool);
   const auto g = task.grid.view();
   pool->For(0, g.RowCount(), kRows, [&](std::int64_t first_row, std::int64_t last_row) {
@@ -90,7 +88,7 @@ void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool, do
           });
         };
         if constexpr (requires { Rules::kByAnimal; }) {
-          SumOneOfEight(rules, reach, task, k, visit);
+          SumOneOfEight(rules, task, k, visit);
         } else {
           SumOne(rules, task, k, visit);
         }
@@ -224,7 +222,7 @@ void SumPairs(const ShapePairNumbers& n, const KernelVariant* kernel, const Pair
       return SumWith(kernel->shape, job, task.bodies.size(), pool);
     }
   }
-  SumScalar(MakeShapePairs<T>(n), task, pool, Reach(n));
+  SumScalar(MakeShapePairs<T>(n), task, pool);
 }
 
 template <typename T>

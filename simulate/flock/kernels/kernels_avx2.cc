@@ -50,11 +50,6 @@ void StoreSetLanes(std::uint64_t mask, const xsimd::batch<float, Avx2>& from, fl
   _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(from.data, _mm256_cvtepu8_epi32(bytes)));
 }
 
-// Lanes 0 .. 3 plus lanes 4 .. 7.
-__m128 FoldToFour(const xsimd::batch<float, Avx2>* eight) {
-  return _mm_add_ps(_mm256_castps256_ps128(eight->data), _mm256_extractf128_ps(eight->data, 1));
-}
-
 }  // namespace
 }  // namespace flocklift
 

@@ -35,11 +35,6 @@ void StoreSetLanes(std::uint64_t mask, const xsimd::batch<float, Avx512Vl>& from
   _mm256_storeu_ps(to, _mm256_maskz_compress_ps(static_cast<__mmask8>(mask), from.data));
 }
 
-// Lanes 0 .. 3 plus lanes 4 .. 7.
-__m128 FoldToFour(const xsimd::batch<float, Avx512Vl>* eight) {
-  return _mm_add_ps(_mm256_castps256_ps128(eight->data), _mm256_extractf128_ps(eight->data, 1));
-}
-
 }  // namespace
 }  // namespace flocklift
 

@@ -9,7 +9,7 @@
 #include "simulate/flock/boids.h"
 #include "simulate/flock/integrator.h"
 #include "simulate/flock/kernels/pair_kernel_inl.h"
-#include "simulate/flock/shape_pairs.h"
+#include "simulate/flock/kernels/shape_kernel_inl.h"
 #include "simulate/flock/steer_pairs.h"
 #include "simulate/flock/zone_pairs.h"
 
@@ -61,13 +61,18 @@ struct Kernels {
   }
 
   [[gnu::flatten]] static void Shape(const ShapeJob& job, std::uint32_t first, std::uint32_t last,
-                                     std::uint32_t* room) {
+                                     std::uint32_t* /*room*/) {
     const auto zone = [&](float gain) -> ZoneParams<Pack, HardEdge> {
       return {Pack(gain), Pack(job.r_rep), Pack(job.r_ali), Pack(job.r_att), HardEdge{}};
     };
-    const ShapePairs<Pack> rules{{zone(job.w_rep), zone(job.w_ali), zone(job.w_att)},
-                                 {Pack(job.w_con), Pack(job.reach), Pack(job.sigma), HardEdge{}}};
-    SumPairs<Pack>(job.pairs, rules, HardEdge{}, first, last, room);
+    const float inner = job.r_rep > job.r_ali ? job.r_rep : job.r_ali;
+    const float widest = inner > job.r_att ? inner : job.r_att;
+    const ShapePairs<Pack> rules{zone(job.w_rep),
+                                 zone(job.w_ali),
+                                 zone(job.w_att),
+                                 {Pack(job.w_con), Pack(job.reach), Pack(job.sigma), HardEdge{}},
+                                 Pack(widest)};
+    SumShapePairs<Pack>(job.pairs, rules, first, last);
   }
 
   [[gnu::flatten]] static void Steer(const SteerJob& job, std::uint32_t first, std::uint32_t last,

@@ -38,11 +38,6 @@ void StoreSetLanes(std::uint64_t mask, const xsimd::batch<float, Sse2>& from, fl
   }
 }
 
-// Lanes 0 .. 3 plus lanes 4 .. 7 of two packs.
-__m128 FoldToFour(const xsimd::batch<float, Sse2>* eight) {
-  return _mm_add_ps(eight[0].data, eight[1].data);
-}
-
 }  // namespace
 }  // namespace flocklift
 

@@ -4,16 +4,11 @@
 // The loop over pairs of every kernel; included once by each variant, after it has defined
 //   std::uint64_t LaneMask(batch_bool)                              bit k: lane k
 //   std::uint32_t AppendSetBits(mask, base, list)                   list base + k; how many
-//   void StoreSetLanes(mask, batch, to)                             likewise the lanes themselves
-//   __m128 FoldToFour(const batch*)                                 lanes k and k + 4 of eight
-//   added
 // Everything lives in an anonymous namespace (kernels.h says why). What the pairs do to each other
 // is the rules' business: BoidsPairs, ZonePairs, SteerPairs.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_KERNELS_PAIR_KERNEL_INL_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_KERNELS_PAIR_KERNEL_INL_H_
-
-#include <xmmintrin.h>
 
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
@@ -93,52 +88,59 @@ void AppendNear(const PairJob& job, std::uint32_t first, std::uint32_t last, con
   }
 }
 
-// Appends those of [first, last) that the row samples, wherever they are.
-void AppendSample(const RowSample& sample, std::uint32_t first, std::uint32_t last,
-                  Candidates* candidates) {
+// Calls fn(j) for those of [first, last) that the row samples, wherever they are.
+template <typename Function>
+void ForEachSampled(const RowSample& sample, std::uint32_t first, std::uint32_t last,
+                    const Function& fn) {
   const std::uint32_t past = first % sample.stride;
   const std::uint32_t way =
       sample.phase >= past ? sample.phase - past : sample.phase + sample.stride - past;
-  for (std::uint32_t j = first + way; j < last; j += sample.stride) {
-    candidates->list[candidates->count++] = j;
+  for (std::uint32_t j = first + way; j < last; j += sample.stride) fn(j);
+}
+
+// Calls fn(first, last, own_row) for the nine runs of cells around a tile, in the order of the
+// sort. `x` bounds the tile.
+template <typename Function>
+void ForEachRun(const PairJob& job, const TileOf& tile, const Interval& x, const Function& fn) {
+  const int a0 = CellX(job, x.low), a1 = CellX(job, x.high);
+  const int row_b = tile.row % job.ny, row_c = tile.row / job.ny;
+  for (int dc = 0; dc <= 2; ++dc) {
+    for (int db = 0; db <= 2; ++db) {
+      const int line = ((row_c + dc) * (job.ny + 2) + row_b + db) * (job.nx + 2);
+      fn(job.start[line + a0 - 1], job.start[line + a1 + 2], dc == 1 && db == 1);
+    }
   }
 }
 
-// The nine runs of cells around a tile, in the order of the sort.
+// Everybody around a tile who is near enough or in the sample.
 template <typename Pack>
 [[gnu::noinline]] void CollectCandidates(const PairJob& job, const TileOf& tile,
                                          Candidates* candidates) {
   const Interval box[3] = {Bounds(job.x, tile.first, tile.last),
                            Bounds(job.y, tile.first, tile.last),
                            Bounds(job.z, tile.first, tile.last)};
-  const int a0 = CellX(job, box[0].low), a1 = CellX(job, box[0].high);
   const float squared_reach = job.reach * job.reach;
   const RowSample sample = job.sample != nullptr ? job.sample[tile.row] : RowSample{1, 0};
   const auto append = [&](std::uint32_t first, std::uint32_t last) {
     if (sample.stride > 1) {
-      AppendSample(sample, first, last, candidates);
+      ForEachSampled(sample, first, last,
+                     [candidates](std::uint32_t j) { candidates->list[candidates->count++] = j; });
     } else {
       AppendNear<Pack>(job, first, last, box, squared_reach, candidates);
     }
   };
   candidates->count = 0;
-  const int row_b = tile.row % job.ny, row_c = tile.row / job.ny;
-  for (int dc = 0; dc <= 2; ++dc) {
-    for (int db = 0; db <= 2; ++db) {
-      const int line = ((row_c + dc) * (job.ny + 2) + row_b + db) * (job.nx + 2);
-      const std::uint32_t run_first = job.start[line + a0 - 1];
-      const std::uint32_t run_last = job.start[line + a1 + 2];
-      if (dc == 1 && db == 1) {
-        append(run_first, tile.first);
-        candidates->self = candidates->count;
-        append(tile.first, tile.last);
-        candidates->self_end = candidates->count;
-        append(tile.last, run_last);
-      } else {
-        append(run_first, run_last);
-      }
+  ForEachRun(job, tile, box[0], [&](std::uint32_t first, std::uint32_t last, bool own_row) {
+    if (own_row) {
+      append(first, tile.first);
+      candidates->self = candidates->count;
+      append(tile.first, tile.last);
+      candidates->self_end = candidates->count;
+      append(tile.last, last);
+    } else {
+      append(first, last);
     }
-  }
+  });
 }
 
 template <typename Pack>
@@ -206,147 +208,10 @@ template <typename Pack, typename Rules, typename Taper>
   Store(sums.Neighbours(), tile, job.neighbours);
 }
 
-// The tile's animals one after the other, lanes holding neighbours: where few of a tile's
-// candidates are within reach of each of its animals, or tiles are seldom full, this does far less.
-// Neighbour n of an animal, in the order of the sort, is added to sum n % 8 of eight;
-// pair_forces.cc does the same without packs. Candidates are taken in blocks, copied side by side
-// first.
-template <typename Pack, typename Rules, typename Taper>
-[[gnu::always_inline]] inline void SumTileByAnimal(const PairJob& job, const Rules& rules,
-                                                   Taper taper, const TileOf& tile,
-                                                   const Candidates& candidates) {
-  constexpr std::uint32_t kLanes = Pack::size, kEight = 8, kParts = kEight / kLanes;
-  constexpr std::uint32_t kBlock = 256, kTerms = Rules::kTerms;
-  // Of an animal between one block and the next.
-  struct State {
-    alignas(32) float sums[4 * kTerms][kEight];
-    float waiting[6][kEight];  // neighbours too few for all lanes
-    std::uint32_t count;       // of those
-  };
-  State states[kLanes];
-  alignas(64) float column[6][kBlock + kEight];    // of the block's candidates: x, y, z, vx, vy, vz
-  alignas(64) float near[6][kBlock + 3 * kEight];  // of those within reach: dx, dv
-  const float* const from[6] = {job.x, job.y, job.z, job.vx, job.vy, job.vz};
-  const Pack squared_reach = Pack(job.reach * job.reach);
-  const float beyond = 2 * job.reach + 1;  // no term reaches as far
-  const auto add = [taper](Weighted<Pack>* sum, const Share<Pack>& share) {
-    Add(share, taper, sum);
-  };
-  const auto take = [&](std::uint32_t at, typename Rules::Sums* sums) {
-    for (std::uint32_t part = 0; part < kParts; ++part) {
-      const auto load = [&](int k) { return Pack::load_unaligned(near[k] + at + part * kLanes); };
-      sums[part].Each(rules.Pair({load(0), load(1), load(2)}, {load(3), load(4), load(5)}), add);
-    }
-  };
-  alignas(64) float total[4 * kTerms][kLanes];
-  for (auto& row : total) Pack(0.0f).store_aligned(row);
-  const std::uint32_t size = tile.last - tile.first;
-  for (std::uint32_t begin = 0; begin < candidates.count; begin += kBlock) {
-    const std::uint32_t rest = candidates.count - begin, count = rest < kBlock ? rest : kBlock;
-    for (std::uint32_t q = 0; q < count; ++q) {
-      const std::uint32_t j = candidates.list[begin + q];
-      for (int k = 0; k < 6; ++k) column[k][q] = from[k][j];
-    }
-    for (std::uint32_t q = count; q < count + kEight; ++q) {
-      column[0][q] = __builtin_nanf("");  // near nobody
-      for (int k = 1; k < 6; ++k) column[k][q] = 0;
-    }
-    for (std::uint32_t a = 0; a < size; ++a) {
-      State& state = states[a];
-      std::uint32_t self = candidates.self;  // where the animal is among its own candidates
-      if (candidates.self_end - self == size) {
-        self += a;
-      } else {  // a sample; beyond all if it is not in there
-        while (self < candidates.self_end && candidates.list[self] != tile.first + a) ++self;
-        if (self == candidates.self_end) self = candidates.count + kBlock;
-      }
-      self -= begin;  // in the block, or wraps
-      Pack own[6];
-      for (int k = 0; k < 6; ++k) own[k] = Pack(from[k][tile.first + a]);
-      std::uint32_t found = begin > 0 ? state.count : 0;
-      for (int k = 0; k < 6; ++k) {
-        for (std::uint32_t q = 0; q < found; ++q) near[k][q] = state.waiting[k][q];
-      }
-      for (std::uint32_t q = 0; q < count; q += kLanes) {
-        Pack offset[6];
-        for (int k = 0; k < 3; ++k) offset[k] = Pack::load_aligned(column[k] + q) - own[k];
-        std::uint64_t mask = LaneMask(
-            offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2] <= squared_reach);
-        mask &= self - q < kLanes ? ~(std::uint64_t{1} << (self - q)) : ~std::uint64_t{0};
-        for (int k = 3; k < 6; ++k) offset[k] = Pack::load_aligned(column[k] + q) - own[k];
-        for (int k = 0; k < 6; ++k) StoreSetLanes(mask, offset[k], near[k] + found);
-        found += static_cast<std::uint32_t>(__builtin_popcountll(mask));
-      }
-      typename Rules::Sums sums[kParts];
-      const auto each_column = [&sums](const auto& fn) {
-        for (std::uint32_t part = 0; part < kParts; ++part) {
-          std::uint32_t at = 0;
-          sums[part].All([&](Weighted<Pack>* sum) {
-            for (Pack* pack : {&sum->value.x, &sum->value.y, &sum->value.z, &sum->weight}) {
-              fn(at++, part, pack);
-            }
-          });
-        }
-      };
-      if (begin > 0) {
-        each_column([&state](std::uint32_t row, std::uint32_t part, Pack* pack) {
-          *pack = Pack::load_aligned(state.sums[row] + part * kLanes);
-        });
-      }
-      std::uint32_t at = 0;
-      for (; at + kEight <= found; at += kEight) take(at, sums);
-      if (begin + kBlock < candidates.count) {
-        state.count = found - at;
-        for (int k = 0; k < 6; ++k) {
-          for (std::uint32_t q = 0; q < state.count; ++q) state.waiting[k][q] = near[k][at + q];
-        }
-        each_column([&state](std::uint32_t row, std::uint32_t part, Pack* pack) {
-          pack->store_aligned(state.sums[row] + part * kLanes);
-        });
-        continue;
-      }
-      if (at < found) {
-        for (std::uint32_t q = found; q < at + kEight; ++q) {
-          near[0][q] = beyond;
-          for (int k = 1; k < 6; ++k) near[k][q] = 0;
-        }
-        take(at, sums);
-      }
-      // Eight sums to one: k and k + 4, then k and k + 2, then both. Animals go back to lanes.
-      Pack columns[4 * kTerms][kParts];
-      each_column([&columns](std::uint32_t row, std::uint32_t part, Pack* pack) {
-        columns[row][part] = *pack;
-      });
-      for (std::uint32_t row = 0; row < 4 * kTerms; row += 4) {
-        __m128 x = FoldToFour(columns[row]), y = FoldToFour(columns[row + 1]),
-               z = FoldToFour(columns[row + 2]), w = FoldToFour(columns[row + 3]);
-        _MM_TRANSPOSE4_PS(x, y, z, w);
-        alignas(16) float four[4];
-        _mm_store_ps(four, _mm_add_ps(_mm_add_ps(x, z), _mm_add_ps(y, w)));
-        for (std::uint32_t k = 0; k < 4; ++k) total[row + k][a] = four[k];
-      }
-    }
-  }
-  typename Rules::Sums sums;
-  std::uint32_t term = 0;
-  sums.All([&](Weighted<Pack>* sum) {
-    const auto load = [&](int k) { return Pack::load_aligned(total[4 * term + k]); };
-    *sum = {{load(0), load(1), load(2)}, load(3)};
-    ++term;
-  });
-  const Vec3<Pack> acceleration = rules.Finish(sums);
-  Store(acceleration.x, tile, job.ax);
-  Store(acceleration.y, tile, job.ay);
-  Store(acceleration.z, tile, job.az);
-  Store(sums.Neighbours(), tile, job.neighbours);
-}
-
-// The animals first .. last - 1, row after row. All of it is inlined into the kernel, which knows
-// which of the rules' numbers are one and the same.
-template <typename Pack, typename Rules, typename Taper>
-[[gnu::always_inline]] inline void SumPairs(const PairJob& job, const Rules& rules, Taper taper,
-                                            std::uint32_t first, std::uint32_t last,
-                                            std::uint32_t* candidate_room) {
+// Calls fn(tile) for all tiles of the animals first .. last - 1, row after row.
+template <typename Pack, typename Function>
+[[gnu::always_inline]] inline void ForEachTile(const PairJob& job, std::uint32_t first,
+                                               std::uint32_t last, const Function& fn) {
   const auto line = [&job](int row) {
     return ((row / job.ny + 1) * (job.ny + 2) + row % job.ny + 1) * (job.nx + 2);
   };
@@ -361,22 +226,30 @@ template <typename Pack, typename Rules, typename Taper>
       rows = half;
     }
   }
-  Candidates candidates{candidate_room, 0, 0, 0};
   for (; first < last; ++row) {
     const std::uint32_t end = row_end(row) < last ? row_end(row) : last;
     while (first < end) {
       const std::uint32_t full = first + std::uint32_t{Pack::size};
       const TileOf tile{first, TileEnd(job, first, full < end ? full : end), row};
-      CollectCandidates<Pack>(job, tile, &candidates);
-      if constexpr (requires { Rules::kByAnimal; }) {
-        SumTileByAnimal<Pack>(job, rules, taper, tile, candidates);
-      } else {
-        SumTile<Pack>(job, rules, taper, tile, candidates);
-      }
+      fn(tile);
       first = tile.last;
     }
     first = end;
   }
+}
+
+// The animals first .. last - 1. All of it is inlined into the kernel, which knows which of the
+// rules' numbers are one and the same.
+template <typename Pack, typename Rules, typename Taper>
+[[gnu::always_inline]] inline void SumPairs(const PairJob& job, const Rules& rules, Taper taper,
+                                            std::uint32_t first, std::uint32_t last,
+                                            std::uint32_t* candidate_room) {
+  Candidates candidates{candidate_room, 0, 0, 0};
+  ForEachTile<Pack>(
+      job, first, last, [&](const TileOf& tile) __attribute__((always_inline)) {
+        CollectCandidates<Pack>(job, tile, &candidates);
+        SumTile<Pack>(job, rules, taper, tile, candidates);
+      });
 }
 
 }  // namespace

@@ -48,9 +48,10 @@ void Step(benchmark::State& state) {
 }
 BENCHMARK(Step)
     ->ArgNames({"animals", "neighbours"})
-    ->Args({5000, 16})
+    ->Args({5000, 8})
+    ->Args({10000, 8})
     ->Args({10000, 16})
-    ->Args({20000, 16})
+    ->Args({20000, 8})
     ->Args({10000, 32})
     ->Args({10000, 0})
     ->Unit(benchmark::kMillisecond);
