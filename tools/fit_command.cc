@@ -86,7 +86,8 @@ nlohmann::ordered_json DirectionAsJson(const FitResult& result, const FitDirecti
 }
 
 nlohmann::ordered_json AsJson(const FitResult& result) {
-  nlohmann::ordered_json json = {{"animals", result.animals},
+  nlohmann::ordered_json json = {{"method", NameOf(result.method)},
+                                 {"animals", result.animals},
                                  {"frames", result.frames},
                                  {"rows", result.rows},
                                  {"rows_clamped", result.rows_clamped},
@@ -101,6 +102,8 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
                                  {"own_speed_mean", result.own_speed_mean},
                                  {"own_speed_sd", result.own_speed_sd},
                                  {"condition", NumberOrNull(result.condition)}};
+  if (result.diffusion_sd) json["diffusion_sd"] = *result.diffusion_sd;
+  if (result.position_noise) json["position_noise"] = *result.position_noise;
   if (result.r2_held_out) json["r2_held_out"] = *result.r2_held_out;
   for (const GoalSpec& goal : result.parameters.goals) {
     json["goal"] = {goal.position.x, goal.position.y, goal.position.z};
@@ -114,7 +117,7 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
 }
 
 void PrintTable(const FitResult& result) {
-  fmt::print(stderr, "  {:<12} {:>10} {:>10}   {:>13}\n", "weight", "value", "sd", "least squares");
+  fmt::print(stderr, "  {:<12} {:>10} {:>10}   {:>13}\n", "weight", "value", "sd", "differences");
   for (const FittedWeight& weight : result.weights) {
     fmt::print(stderr, "  {:<12} {:>10.4g} {:>10.2g}   {:>13.4g}{}\n", weight.name, weight.value,
                weight.sd, weight.plain, weight.determined ? "" : "   not determined");
@@ -125,11 +128,8 @@ void PrintTable(const FitResult& result) {
 
 void RunFit(const FitCommand& command, const CommonOptions& common) {
   Stage stage("fit", common);
-  stage.options() = {{"model", command.model},
-                     {"free", command.free},
-                     {"set", command.set},
-                     {"walls", command.walls},
-                     {"goal", command.goal}};
+  stage.options() = {{"model", command.model}, {"free", command.free}, {"set", command.set},
+                     {"walls", command.walls}, {"goal", command.goal}, {"method", command.method}};
   FitOptions options = command.fit;
   if (options.scale_sd == 0) {  // the reconstruction may have said
     options.scale_sd = ScaleSdOfSummary(command.trajectories.parent_path()).value_or(0);
@@ -142,6 +142,7 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
   FitProblem problem;
   problem.free = command.free;
   problem.walls = ParseWalls(command.walls);
+  problem.method = FitMethodOf(command.method);
   ParseGoal(command.goal, &problem);
   if (!command.start.empty()) stage.AddInput(command.start);
   problem.model = ModelOf(command);
@@ -194,6 +195,12 @@ void AddFitCommand(CLI::App& app) {
   sub->add_option("--goal", command->goal,
                   "a point that attracts all: auto (sought when something holds the animals in "
                   "place), none, seek, or X,Y,Z [m]")
+      ->capture_default_str();
+  sub->add_option("--method", command->method,
+                  "state-space (all at once, by likelihood; smooth models), errors-in-variables "
+                  "(regression with instruments), differences (least squares on plain differences: "
+                  "badly biased, for comparison), or auto, which never takes the last")
+      ->check(CLI::IsMember({"auto", "state-space", "errors-in-variables", "differences"}))
       ->capture_default_str();
   AddFlags(*sub, command->fit, "Fit");
 }

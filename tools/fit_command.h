@@ -26,6 +26,7 @@ struct FitCommand {
   std::vector<std::string> set = {};   // "NAME=VALUE": what is not free
   std::string walls = {};              // "X0,Y0,Z0,X1,Y1,Z1" [m]; empty: none
   std::string goal = "auto";           // auto, none, seek or "X,Y,Z"
+  std::string method = "auto";         // of reconstruct/fit/fit.h
   FitOptions fit = {};
 };
 

@@ -11,9 +11,11 @@
 
 #include "reconstruct/fit/depth_noise.h"
 #include "reconstruct/fit/fit_measures.h"
+#include "reconstruct/fit/fit_setup.h"
 #include "reconstruct/fit/fit_warnings.h"
 #include "reconstruct/fit/flock_terms.h"
 #include "reconstruct/fit/motion_rows.h"
+#include "reconstruct/fit/state_space.h"
 #include "reconstruct/fit/whitened_fit.h"
 #include "simulate/core/check.h"
 #include "simulate/flock/model.h"
@@ -25,7 +27,6 @@ constexpr double kConfining = 0.05;       // share of u pulling to the middle th
 constexpr int kGoalRounds = 8;            // of moving it
 constexpr double kGoalTolerance = 0.03;   // ... until it moves by less, of its range
 constexpr std::size_t kFrameEffects = 5;  // animals a frame that frame effects need
-constexpr double kSpeedSlack = 0.05;      // beyond the 1st and 99th percentile of speeds
 // A weight is determined when its 95 % interval leaves 0 out, or when all of the interval would
 // change accelerations by less than this share of what the model explains.
 constexpr double kSmallShare = 0.25;
@@ -36,63 +37,6 @@ std::vector<std::string> DefaultFree(const FitProblem& problem) {
   std::vector<std::string> names = LinearWeights(problem.model.name);
   if (!problem.walls) std::erase(names, "alpha_b");
   return names;
-}
-
-double SpeedAt(const std::vector<double>& sorted, double q) {
-  return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
-}
-
-// Speed limits that the caller did not give must let the observed flock fly.
-void WidenSpeedLimits(const FitProblem& problem, const ObservedFlock& flock, ModelSpec* model,
-                      std::vector<std::string>* warnings) {
-  if (!model->parameters.contains("s_max") || !model->parameters.contains("time_unit")) return;
-  std::vector<double> speeds;
-  const FrameSpan span = flock.span();
-  const int stride = std::max(1, (span.last - span.first) / 200);
-  for (int f = span.first; f <= span.last; f += stride) {
-    for (const Vec3d& v : flock.Between(f, 0, 1, 0).velocity) speeds.push_back(Norm(v));
-  }
-  if (speeds.empty()) return;
-  std::sort(speeds.begin(), speeds.end());
-  const double unit = model->parameters.at("time_unit");
-  const double low = unit * SpeedAt(speeds, 0.01) * (1 - kSpeedSlack);
-  const double high = unit * SpeedAt(speeds, 0.99) * (1 + kSpeedSlack);
-  const auto widen = [&](const char* name, double wanted, bool needed) {
-    if (problem.model.parameters.contains(name) || !needed) return;
-    warnings->push_back(fmt::format(
-        "{} is {:.3g} instead of the model's {:.3g}: the animals fly at {:.3g} to "
-        "{:.3g} m/s",
-        name, wanted, model->parameters.at(name), SpeedAt(speeds, 0.01), SpeedAt(speeds, 0.99)));
-    model->parameters[name] = wanted;
-  };
-  widen("s_min", low, low < (1 - 2 * kSpeedSlack) * model->parameters.at("s_min"));
-  widen("s_max", high, high > (1 + 2 * kSpeedSlack) * model->parameters.at("s_max"));
-}
-
-double MeanSpeed(const ObservedFlock& flock) {
-  double sum = 0, count = 0;
-  for (int f = flock.span().first; f <= flock.span().last; ++f) {
-    for (const Vec3d& v : flock.Between(f, 0, 1, 0).velocity) {
-      sum += Norm(v);
-      count += 1;
-    }
-  }
-  return count > 0 ? sum / count : 0;
-}
-
-// The frames to make rows of: all, or every stride-th with those before it that it needs.
-std::vector<int> Middles(const ObservedFlock& flock, int window, int stride) {
-  const FrameSpan span = flock.span();
-  std::vector<int> middles;
-  for (int f = span.first; f <= span.last; ++f) {
-    if (f % stride != 0) continue;
-    for (const int before : FramesBefore(window, true)) middles.push_back(f - before);
-    middles.push_back(f);
-  }
-  std::sort(middles.begin(), middles.end());
-  middles.erase(std::unique(middles.begin(), middles.end()), middles.end());
-  std::erase_if(middles, [&](int f) { return f < span.first || f > span.last; });
-  return middles;
 }
 
 class Fitter {
@@ -114,6 +58,7 @@ class Fitter {
       throw InputError(problem_.model.where, 0, "alpha_b is to be fitted, but there are no walls",
                        "say where the walls are, or leave alpha_b out");
     }
+    ChooseMethod();
     WidenSpeedLimits(problem_, flock_, &model_, &result_.warnings);
     UseGoal({});  // also checks the names
     result_.parameters.model = model_;
@@ -129,6 +74,7 @@ class Fitter {
     ChooseWhitening();
     WhitenedFit fit = Solve(progress);
     if (fit.IsUsable()) SettleGoal(&fit);
+    if (fit.IsUsable() && result_.method == FitMethod::kStateSpace) EstimateStates(&fit);
     if (!fit.IsUsable()) {
       result_.status = fit.regression.status == RegressionStatus::kTooFewTimes
                            ? FitStatus::kTooFewFrames
@@ -158,8 +104,39 @@ class Fitter {
     terms_ = MakeFlockTerms(model_, names, problem_.walls, goal, cruising_speed_);
   }
 
+  void ChooseMethod() {
+    result_.method = problem_.method;
+    if (result_.method == FitMethod::kStateSpace) MakeProcessModel(model_, free_);  // or throws
+    if (result_.method != FitMethod::kAuto) return;
+    const bool smooth = IsSmooth(model_) && !trajectories_.has_sd_depth;
+    result_.method = smooth ? FitMethod::kStateSpace : FitMethod::kErrorsInVariables;
+  }
+
+  // From the regression's estimate, which it replaces.
+  void EstimateStates(WhitenedFit* fit) {
+    const ProcessModel process = MakeProcessModel(model_, free_);
+    const StateSpaceOptions options{
+        .filter = {.substeps = options_.substeps, .bridged_gap = options_.bridged_gap},
+        .threads = threads_};
+    const StateSpaceFit states =
+        FitStateSpace(options, process, fit->regression.estimate, FilterInput(flock_));
+    if (!states.IsUsable()) {
+      fit->regression.status = RegressionStatus::kTooFewRows;
+      return;
+    }
+    fit->converged = states.status == StateSpaceStatus::kOk;
+    fit->rho.reset();  // the noise is white
+    fit->regression.estimate = states.estimate;
+    fit->regression.sd = states.sd;
+    fit->regression.correlation = states.correlation;
+    result_.diffusion = states.noise.diffusion;
+    result_.diffusion_sd = states.diffusion_sd;
+    result_.position_noise = std::sqrt(states.noise.position_variance);
+    u_ = Unexplained(rows_, states.estimate, whitening_.own_speed);
+  }
+
   void ChooseWhitening() {
-    whitening_.lagged = !options_.plain;
+    whitening_.lagged = result_.method != FitMethod::kDifferences;
     whitening_.own_speed = terms_.has_own_speed;
     whitening_.stride = stride_;
     if (!trajectories_.has_sd_depth) return;
@@ -311,7 +288,7 @@ class Fitter {
     const NoiseEstimate noise = EstimateNoise(rows, own, fit.rho, flock_.dt(), step);
     result_.noise_sd = noise.sd;
     result_.noise_time = noise.time;
-    result_.diffusion = noise.diffusion;
+    if (!result_.diffusion_sd) result_.diffusion = noise.diffusion;
 
     const auto& parameters = result_.parameters.model.parameters;
     std::vector<double> values;
@@ -431,6 +408,30 @@ std::string StatusText(FitStatus status) {
       return "too few animals and frames for so many weights: free fewer";
   }
   return "";
+}
+
+std::string NameOf(FitMethod method) {
+  switch (method) {
+    case FitMethod::kAuto:
+      return "auto";
+    case FitMethod::kStateSpace:
+      return "state-space";
+    case FitMethod::kErrorsInVariables:
+      return "errors-in-variables";
+    case FitMethod::kDifferences:
+      return "differences";
+  }
+  return "";
+}
+
+FitMethod FitMethodOf(const std::string& name) {
+  for (const FitMethod method : {FitMethod::kAuto, FitMethod::kStateSpace,
+                                 FitMethod::kErrorsInVariables, FitMethod::kDifferences}) {
+    if (NameOf(method) == name) return method;
+  }
+  Check(false,
+        "--method " + name + " is none of auto, state-space, errors-in-variables and differences");
+  return FitMethod::kAuto;
 }
 
 FitResult FitModel(const FitOptions& options, const FitProblem& problem,

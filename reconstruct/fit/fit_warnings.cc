@@ -32,10 +32,10 @@ double MedianSdDepth(const Trajectories& trajectories) {
 void AddWarnings(const FitOptions& options, double pull, double median_sd_depth,
                  FitResult* result) {
   const auto warn = [&](std::string text) { result->warnings.push_back(std::move(text)); };
-  if (options.plain) {
+  if (result->method == FitMethod::kDifferences) {
     warn(
-        "plain least squares: the weights are biased, however long the data, and their standard "
-        "deviations do not show it");
+        "least squares on differences: the weights are biased, however long the data, and their "
+        "standard deviations do not show it");
   }
   if (result->r2_held_out && *result->r2_held_out <= 0) {
     warn(
@@ -43,7 +43,9 @@ void AddWarnings(const FitOptions& options, double pull, double median_sd_depth,
                     "than constant velocity does (R^2 {:.3f}): it explains nothing",
                     100 * options.held_out, *result->r2_held_out));
   }
-  if (!result->converged) {
+  if (!result->converged && result->method == FitMethod::kStateSpace) {
+    warn("the likelihood's maximum was not reached: the weights are not final");
+  } else if (!result->converged) {
     warn(
         "what the model leaves over has a memory that could not be estimated: the weights are "
         "biased");

@@ -13,6 +13,7 @@
 
 #include "simulate/core/check.h"
 #include "tests/reconstruct/fit/flocks.h"
+#include "tests/reconstruct/fit/linear_flock.h"
 
 namespace flocklift {
 namespace {
@@ -144,12 +145,55 @@ TEST(Fit, LinearFlockFromNoisyPositionsWhereDifferencesAreNinetyPercentOff) {
   }
 }
 
-TEST(Fit, PlainLeastSquaresIsNotSilent) {
+TEST(Fit, PlainDifferencesAreTakenOnlyWhenNamedAndThenNotSilently) {
   const Scene scene = BoidsScene(1);
-  FitOptions options;
-  options.plain = true;
-  EXPECT_TRUE(Warns(Fit(ProblemOf(scene), Fly(scene), options), "biased"));
-  EXPECT_FALSE(Warns(Fit(ProblemOf(scene), Fly(scene)), "biased"));
+  const Trajectories flock = Fly(scene);
+  FitProblem problem = ProblemOf(scene);
+  const FitResult chosen = Fit(problem, flock);
+  EXPECT_EQ(chosen.method, FitMethod::kErrorsInVariables);  // its speed limits are not smooth
+  EXPECT_FALSE(Warns(chosen, "biased"));
+  problem.method = FitMethod::kDifferences;
+  const FitResult named = Fit(problem, flock);
+  EXPECT_EQ(named.method, FitMethod::kDifferences);
+  EXPECT_TRUE(Warns(named, "biased"));
+  EXPECT_EQ(WeightOf(named, "alpha_a").estimate, WeightOf(named, "alpha_a").plain);
+}
+
+TEST(Fit, EveryEstimatorByItsNameOnTheLinearFlock) {
+  const LinearFlock flock = FlyLinearFlock(3);
+  FitProblem problem;
+  problem.model.name = "linear";
+  std::map<FitMethod, FitResult> results;
+  for (const FitMethod method : {FitMethod::kAuto, FitMethod::kStateSpace,
+                                 FitMethod::kErrorsInVariables, FitMethod::kDifferences}) {
+    EXPECT_EQ(FitMethodOf(NameOf(method)), method);
+    problem.method = method;
+    results[method] = Fit(problem, WithNoise(flock.seen, 1e-4, 5));
+    ASSERT_TRUE(results[method].IsUsable());
+  }
+  const FitResult& states = results[FitMethod::kAuto];
+  EXPECT_EQ(states.method, FitMethod::kStateSpace);
+  EXPECT_EQ(states.weights[0].estimate, results[FitMethod::kStateSpace].weights[0].estimate);
+  EXPECT_NEAR(states.position_noise.value(), 1e-4, 2e-5);
+  EXPECT_NEAR(states.diffusion, LinearFlock::kDiffusion, 3 * states.diffusion_sd.value());
+  for (const auto& [name, truth] : {std::pair("cohesion", LinearFlock::kCohesion),
+                                    std::pair("alignment", LinearFlock::kAlignment)}) {
+    const FittedWeight& best = WeightOf(states, name);
+    EXPECT_LT(std::abs(best.estimate - truth), 3 * best.sd) << name;
+    const FittedWeight& regressed = WeightOf(results[FitMethod::kErrorsInVariables], name);
+    EXPECT_LT(std::abs(regressed.estimate - truth), 3 * regressed.sd) << name;
+    EXPECT_LT(best.sd, regressed.sd) << name;
+    EXPECT_LT(std::abs(WeightOf(results[FitMethod::kDifferences], name).estimate), 0.1 * truth)
+        << name;
+  }
+  EXPECT_THROW(FitMethodOf("guess"), std::invalid_argument);
+}
+
+TEST(Fit, AStateSpaceEstimateIsRefusedWhereTheModelIsNotSmooth) {
+  const Scene scene = BoidsScene(1);
+  FitProblem problem = ProblemOf(scene);
+  problem.method = FitMethod::kStateSpace;
+  EXPECT_THROW(Fit(problem, Fly(scene)), InputError);
 }
 
 TEST(Fit, FreesOnlyWhatIsAskedForAndTakesTheRestAsGiven) {

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The smooth part of a flock's motion as a state-space estimate needs it:
+//   dx_i = v_i dt,   dv_i = a_i(x, v; theta) dt + noise
+// with theta any of the model's parameters, radii too, and how an animal's own state changes its
+// own acceleration. By the same templated terms that the simulator runs.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_FIT_PROCESS_MODEL_H_
+#define FLOCKLIFT_RECONSTRUCT_FIT_PROCESS_MODEL_H_
+
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "simulate/core/scene.h"
+
+namespace flocklift {
+
+// d a_i / d x_i [1/s^2] and d a_i / d v_i [1/s], row-major, the other animals held.
+struct OwnSlope {
+  std::array<double, 9> position{}, velocity{};
+
+  bool operator==(const OwnSlope&) const = default;
+};
+
+struct ProcessModel {
+  std::vector<std::string> free;  // the p parameters of theta, by their names in the model
+  std::vector<double> start;      // p: their values in the model
+  // Fills `a` [m/s^2] of the animals at positions x with velocities v and, where `slopes` is not
+  // empty, their own slopes. Safe to call from several threads.
+  std::function<void(std::span<const double> theta, std::span<const Vec3d> x,
+                     std::span<const Vec3d> v, std::span<Vec3d> a, std::span<OwnSlope> slopes)>
+      evaluate;
+};
+
+// Has the model accelerations that are smooth in states and parameters?
+bool IsSmooth(const ModelSpec& model);
+
+// `model` gives every value that is not free. Throws InputError for a model that is not smooth and
+// a name that is none of its parameters.
+ProcessModel MakeProcessModel(const ModelSpec& model, const std::vector<std::string>& free);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_FIT_PROCESS_MODEL_H_

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Parameters, process noise and position noise together, of greatest marginal likelihood, the
+// states integrated out (flock_filter.h), by Fisher scoring (Gupta and Mehra 1974): with
+// phi = (theta, log q, log(s^2 + s0^2)), innovations eps and covariances S,
+//   score  g_p  = sum  eps' S^-1 eps_p + tr(S^-1 S_p) / 2 - eps' S^-1 S_p S^-1 eps / 2
+//   information I_pr = sum  eps_p' S^-1 eps_r + tr(S^-1 S_p S^-1 S_r) / 2
+// eps_p, S_p derivatives by differences of whole sweeps, which see the gain's change too. The sd
+// are those of I^-1. Where s^2 goes to 0 it stays there and is no unknown any more.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_FIT_STATE_SPACE_H_
+#define FLOCKLIFT_RECONSTRUCT_FIT_STATE_SPACE_H_
+
+#include <vector>
+
+#include "reconstruct/fit/flock_filter.h"
+
+namespace flocklift {
+
+struct StateSpaceOptions {
+  FilterOptions filter;
+  int rounds = 30;         // of scoring, at most
+  double accuracy = 0.01;  // it ends when no unknown moves by more of its sd
+  int threads = 1;
+};
+
+enum class StateSpaceStatus {
+  kOk,
+  kTooFew,        // fewer than ten innovations an unknown
+  kNotConverged,  // the estimate is of the last round
+};
+
+struct StateSpaceFit {
+  StateSpaceStatus status = StateSpaceStatus::kOk;
+  std::vector<double> estimate;     // p
+  std::vector<double> sd;           // p; infinite where the data say nothing
+  std::vector<double> correlation;  // p x p, row-major
+  FlockNoise noise;
+  double diffusion_sd = 0;          // of noise.diffusion
+  double position_variance_sd = 0;  // of noise.position_variance; 0 when it stayed at 0
+  double cost = 0;                  // -2 log likelihood, without its constant
+  std::size_t innovations = 0;      // three equations each
+  int rounds = 0;
+
+  bool IsUsable() const { return status != StateSpaceStatus::kTooFew; }
+};
+
+// Starts from `start` (p values). The same at any number of threads.
+StateSpaceFit FitStateSpace(const StateSpaceOptions& options, const ProcessModel& model,
+                            const std::vector<double>& start, const FilterInput& input);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_FIT_STATE_SPACE_H_

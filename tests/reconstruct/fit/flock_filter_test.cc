@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/fit/flock_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <stdexcept>
+
+#include "simulate/core/check.h"
+#include "tests/reconstruct/fit/flocks.h"
+#include "tests/reconstruct/fit/linear_flock.h"
+
+namespace flocklift {
+namespace {
+
+ProcessModel Linear() {
+  ModelSpec model;
+  model.name = "linear";
+  return MakeProcessModel(model, {"cohesion", "alignment"});
+}
+
+FilterSweep Sweep(const Trajectories& seen, const FlockNoise& noise,
+                  const FilterOptions& options = {}, std::vector<double> theta = {0.05, 0.2}) {
+  return RunFilter(options, Linear(), theta, noise,
+                   FilterInput(ObservedFlock(seen, seen.fps.value(), 5)));
+}
+
+// One animal alone has no forces: positions are integrated noise, whose joint covariance is known.
+// The filter's likelihood of frames 3.. given the first two must be that of the dense Gaussian,
+// but for its start: as diffuse as the data's own spread.
+TEST(FlockFilter, OneAnimalsLikelihoodIsThatOfTheJointGaussian) {
+  const int frames = 12;
+  const Trajectories seen = WithNoise(FlyLinearFlock(4, frames, 1).seen, 2e-4, 6);
+  const FlockNoise noise{.diffusion = 4e-3, .position_variance = 5e-8};
+  const FilterInput input(ObservedFlock(seen, seen.fps.value(), 5));
+  const FilterSweep sweep = RunFilter({}, Linear(), {0.05, 0.2}, noise, input);
+  ASSERT_EQ(sweep.innovations.size(), frames - 2U);
+
+  // x_k and the noise that the engine's steps add up to, from frame 2 on.
+  const double dt = LinearFlock::kDt, h = dt / 4, q = 2 * noise.diffusion;
+  const double floor = 1e-6 * q * dt * dt * dt, r = noise.position_variance + floor;
+  const Eigen::Index n = frames - 2;
+  Eigen::Matrix2d start;
+  const double v_start = 2 * r / (dt * dt) + q * dt / 3 + input.second_differences()[0] / (dt * dt);
+  start << r, r / dt, r / dt, v_start;
+  Eigen::MatrixXd covariance(n, n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    for (Eigen::Index b = 0; b < n; ++b) {
+      const double ta = dt * static_cast<double>(a + 1), tb = dt * static_cast<double>(b + 1);
+      const Eigen::Vector2d ga(1, ta), gb(1, tb);
+      double sum = ga.dot(start * gb) + (a == b ? r : 0);
+      for (int step = 0; step < 4 * (std::min(a, b) + 1); ++step) {
+        // A kick at step s of h moves x at time t by t - s h, this step's move included.
+        sum += q * h * (ta - step * h) * (tb - step * h);
+      }
+      covariance(a, b) = sum;
+    }
+  }
+  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+  const auto& points = seen.trajectories[0].points;
+  double cost = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = [&](std::size_t k) {
+      const Vec3d& x = points[k].position;
+      return axis == 0 ? x.x : axis == 1 ? x.y : x.z;
+    };
+    Eigen::VectorXd deviation(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const double t = static_cast<double>(k + 1);
+      deviation[k] = at(static_cast<std::size_t>(k) + 2) - (at(1) + t * (at(1) - at(0)));
+    }
+    cost += deviation.dot(llt.solve(deviation));
+    for (Eigen::Index k = 0; k < n; ++k) cost += 2 * std::log(llt.matrixL()(k, k));
+  }
+  EXPECT_NEAR(sweep.cost, cost, 1e-7 * std::abs(cost));
+}
+
+TEST(FlockFilter, WhitenedInnovationsAreWhite) {
+  const Trajectories seen = WithNoise(FlyLinearFlock(9, 800).seen, 3e-4, 2);
+  const FilterSweep sweep =
+      Sweep(seen, {.diffusion = LinearFlock::kDiffusion, .position_variance = 9e-8});
+  double squares = 0, products = 0, count = 0;
+  std::array<double, 3> last{};
+  for (const Innovation& i : sweep.innovations) {
+    if (i.animal != 4) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double white = i.value[axis] / std::sqrt(i.covariance[0]);
+      squares += white * white;
+      products += white * last[axis];
+      count += 1;
+      last[axis] = white;
+    }
+  }
+  EXPECT_NEAR(squares / count, 1, 4 * std::sqrt(2 / count));
+  EXPECT_NEAR(products / count, 0, 4 / std::sqrt(count));
+}
+
+// A gain that was kept once it settled is the gain that would have been computed.
+TEST(FlockFilter, ASettledGainCostsNothing) {
+  Trajectories seen = WithNoise(FlyLinearFlock(3, 400, 5).seen, 1e-4, 2);
+  const FlockNoise noise{.diffusion = 5e-3, .position_variance = 1e-8};
+  const FilterSweep sweep = Sweep(seen, noise);
+  // A gap late in the run of one animal; the others' innovations before it stay as they are.
+  std::erase_if(seen.trajectories[0].points,
+                [](const TrajectoryPoint& p) { return p.frame > 300 && p.frame < 304; });
+  const FilterSweep holed = Sweep(seen, noise);
+  double before = 0, after = 0;
+  for (const Innovation& i : holed.innovations) {
+    if (i.animal != 0) continue;
+    if (i.frame == 300) before = i.covariance[0];
+    if (i.frame == 304) after = i.covariance[0];
+  }
+  EXPECT_GT(after, 4 * before);  // it was predicted over four frames
+  EXPECT_NEAR(holed.innovations.back().covariance[0], sweep.innovations.back().covariance[0],
+              1e-9 * before);
+}
+
+TEST(FlockFilter, TurningTheWorldChangesNothing) {
+  Trajectories seen = FlyLinearFlock(3, 60, 4).seen;
+  const FlockNoise noise{.diffusion = 5e-3, .position_variance = 1e-8};
+  for (const int substeps : {4, 0}) {
+    const double cost = Sweep(seen, noise, {.substeps = substeps, .bridged_gap = 5}).cost;
+    Trajectories turned = seen;
+    for (Trajectory& t : turned.trajectories) {
+      for (TrajectoryPoint& p : t.points) {
+        p.position = {p.position.y + 3, -p.position.x, p.position.z};
+      }
+    }
+    EXPECT_NEAR(Sweep(turned, noise, {.substeps = substeps, .bridged_gap = 5}).cost, cost,
+                1e-9 * std::abs(cost));
+  }
+}
+
+TEST(FlockFilter, TheTruthIsLikelierThanItsNeighbours) {
+  const Trajectories seen = FlyLinearFlock(6).seen;
+  const FlockNoise noise{.diffusion = LinearFlock::kDiffusion, .position_variance = 0};
+  const double truth = Sweep(seen, noise).cost;
+  EXPECT_LT(truth, Sweep(seen, noise, {}, {0.07, 0.2}).cost);
+  EXPECT_LT(truth, Sweep(seen, noise, {}, {0.05, 0.25}).cost);
+  EXPECT_LT(truth, Sweep(seen, noise, {}, {0.05, 0.15}).cost);
+  EXPECT_LT(truth, Sweep(seen, {.diffusion = 6e-3, .position_variance = 0}).cost);
+  // ... in the engine's own steps.
+  EXPECT_LT(truth, Sweep(seen, noise, {.substeps = 0, .bridged_gap = 5}).cost);
+  EXPECT_THROW(Sweep(seen, {}), std::invalid_argument);
+}
+
+TEST(ProcessModel, ItsSlopesAreThoseOfItsAccelerations) {
+  const ProcessModel model = Linear();
+  const std::vector<double> theta{0.3, 0.7};
+  std::vector<Vec3d> x{{1, 2, 3}, {-1, 0.5, 2}, {0.2, 0.1, -3}}, v{{1, 0, 1}, {0, 2, 0}, {3, 1, 1}};
+  std::vector<Vec3d> a(3), moved(3);
+  std::vector<OwnSlope> slopes(3);
+  model.evaluate(theta, x, v, a, slopes);
+  // By hand: springs to the two others.
+  EXPECT_NEAR(a[0].x, 0.3 * (-2 - 0.8) + 0.7 * (-1 + 2), 1e-12);
+  x[1].y += 1e-3;
+  v[1].z += 2e-3;
+  model.evaluate(theta, x, v, moved, {});
+  EXPECT_NEAR((moved[1].y - a[1].y) / 1e-3, slopes[1].position[4], 1e-9);
+  EXPECT_NEAR((moved[1].z - a[1].z) / 2e-3, slopes[1].velocity[8], 1e-9);
+  ModelSpec lin;
+  lin.name = "lin";
+  EXPECT_FALSE(IsSmooth(lin));
+  EXPECT_THROW(MakeProcessModel(lin, {}), InputError);
+  lin.name = "linear";
+  EXPECT_THROW(MakeProcessModel(lin, {"cohesio"}), InputError);
+}
+
+}  // namespace
+}  // namespace flocklift

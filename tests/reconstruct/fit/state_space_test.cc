@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/fit/state_space.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "tests/reconstruct/fit/flocks.h"
+#include "tests/reconstruct/fit/linear_flock.h"
+
+namespace flocklift {
+namespace {
+
+ProcessModel Linear() {
+  ModelSpec model;
+  model.name = "linear";
+  return MakeProcessModel(model, {"cohesion", "alignment"});
+}
+
+FilterInput InputOf(const Trajectories& seen) {
+  return FilterInput(ObservedFlock(seen, seen.fps.value(), 5));
+}
+
+StateSpaceFit Fit(const Trajectories& seen, int threads = 2) {
+  return FitStateSpace({.filter = {}, .threads = threads}, Linear(), {0, 0}, InputOf(seen));
+}
+
+TEST(StateSpace, PositionsAloneAreAsGoodAsTrueVelocities) {
+  // Over some seeds, the distance from the estimate of true velocities is small beside its error.
+  double apart = 0, error = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const LinearFlock flock = FlyLinearFlock(seed);
+    const StateSpaceFit fit = Fit(flock.seen);
+    ASSERT_EQ(fit.status, StateSpaceStatus::kOk);
+    for (std::size_t p = 0; p < 2; ++p) {
+      apart += std::pow((fit.estimate[p] - flock.from_true_velocities[p]) / fit.sd[p], 2);
+      error +=
+          std::pow((fit.estimate[p] - (p == 0 ? LinearFlock::kCohesion : LinearFlock::kAlignment)) /
+                       fit.sd[p],
+                   2);
+    }
+    EXPECT_NEAR(fit.noise.diffusion, LinearFlock::kDiffusion, 4 * fit.diffusion_sd);
+    EXPECT_LT(std::sqrt(fit.noise.position_variance), 2e-6);
+  }
+  EXPECT_LT(apart, 0.32 * error);  // (1.15^2 - 1), were the two independent
+  EXPECT_LT(error, 30);            // of 8, each about 1
+}
+
+TEST(StateSpace, FindsNoiseAndDiffusionItself) {
+  const LinearFlock flock = FlyLinearFlock(7);
+  for (const double sd : {1e-4, 1e-3}) {
+    const StateSpaceFit fit = Fit(WithNoise(flock.seen, sd, 11));
+    ASSERT_EQ(fit.status, StateSpaceStatus::kOk);
+    EXPECT_NEAR(fit.noise.position_variance, sd * sd, 4 * fit.position_variance_sd);
+    EXPECT_LT(fit.position_variance_sd, 0.1 * sd * sd);
+    EXPECT_NEAR(fit.noise.diffusion, LinearFlock::kDiffusion, 4 * fit.diffusion_sd);
+    EXPECT_NEAR(fit.estimate[0], LinearFlock::kCohesion, 3.5 * fit.sd[0]);
+    EXPECT_NEAR(fit.estimate[1], LinearFlock::kAlignment, 3.5 * fit.sd[1]);
+  }
+}
+
+TEST(StateSpace, IntervalsCoverOverShortRuns) {
+  int covered = 0, intervals = 0;
+  double squares = 0;
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    const LinearFlock flock = FlyLinearFlock(seed, 600, 8);
+    const StateSpaceFit fit = Fit(WithNoise(flock.seen, 1e-4, seed));
+    ASSERT_TRUE(fit.IsUsable());
+    for (std::size_t p = 0; p < 2; ++p) {
+      const double truth = p == 0 ? LinearFlock::kCohesion : LinearFlock::kAlignment;
+      const double z = (fit.estimate[p] - truth) / fit.sd[p];
+      covered += std::abs(z) < 1.96 ? 1 : 0;
+      squares += z * z;
+      ++intervals;
+    }
+  }
+  EXPECT_GE(covered, 42);  // of 50
+  EXPECT_GT(squares / intervals, 0.4);
+}
+
+TEST(StateSpace, GapsAndLateComersCostAccuracyNotTruth) {
+  const LinearFlock flock = FlyLinearFlock(5);
+  Trajectories holed = WithNoise(flock.seen, 1e-4, 3);
+  const StateSpaceFit whole = Fit(holed);
+  Rng rng(8);
+  for (Trajectory& trajectory : holed.trajectories) {
+    std::erase_if(trajectory.points, [&](const TrajectoryPoint&) { return rng.Uniform() < 0.05; });
+  }
+  const StateSpaceFit fit = Fit(holed);
+  ASSERT_EQ(fit.status, StateSpaceStatus::kOk);
+  EXPECT_LT(fit.innovations, whole.innovations);
+  for (std::size_t p = 0; p < 2; ++p) {
+    EXPECT_LT(std::abs(fit.estimate[p] - whole.estimate[p]), 0.5 * whole.sd[p]);
+  }
+}
+
+TEST(StateSpace, IsTheSameAtAnyNumberOfThreads) {
+  const LinearFlock flock = FlyLinearFlock(2, 300);
+  const StateSpaceFit one = Fit(flock.seen, 1), three = Fit(flock.seen, 3);
+  EXPECT_EQ(one.estimate, three.estimate);
+  EXPECT_EQ(one.sd, three.sd);
+  EXPECT_EQ(one.noise.diffusion, three.noise.diffusion);
+}
+
+TEST(StateSpace, TooLittleDataIsAStatusAndNonsenseThrows) {
+  EXPECT_EQ(Fit(FlyLinearFlock(1, 3, 2).seen).status, StateSpaceStatus::kTooFew);
+  EXPECT_EQ(Fit(FlyLinearFlock(1, 1, 2).seen).status, StateSpaceStatus::kTooFew);
+  EXPECT_THROW(FitStateSpace({}, Linear(), {0}, InputOf(FlyLinearFlock(1, 10).seen)),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace flocklift
