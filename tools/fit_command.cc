@@ -65,8 +65,10 @@ nlohmann::ordered_json NumberOrNull(double value) {
 }
 
 nlohmann::ordered_json WeightAsJson(const FittedWeight& weight) {
+  const double value = weight.determined ? weight.value : std::nan("");
   nlohmann::ordered_json json = {{"name", weight.name},
-                                 {"value", weight.value},
+                                 {"value", NumberOrNull(value)},
+                                 {"flown", weight.value},
                                  {"estimate", NumberOrNull(weight.estimate)},
                                  {"sd", NumberOrNull(weight.sd)},
                                  {"determined", weight.determined},
@@ -119,8 +121,15 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
 void PrintTable(const FitResult& result) {
   fmt::print(stderr, "  {:<12} {:>10} {:>10}   {:>13}\n", "weight", "value", "sd", "differences");
   for (const FittedWeight& weight : result.weights) {
-    fmt::print(stderr, "  {:<12} {:>10.4g} {:>10.2g}   {:>13.4g}{}\n", weight.name, weight.value,
-               weight.sd, weight.plain, weight.determined ? "" : "   not determined");
+    const std::string plain =
+        std::isfinite(weight.plain) ? fmt::format("{:.4g}", weight.plain) : "";
+    if (weight.determined) {
+      fmt::print(stderr, "  {:<12} {:>10.4g} {:>10.2g}   {:>13}\n", weight.name, weight.value,
+                 weight.sd, plain);
+    } else {
+      fmt::print(stderr, "  {:<12} {:>10} {:>10.2g}   {:>13}\n", weight.name, "unknown", weight.sd,
+                 plain);
+    }
   }
 }
 
@@ -180,12 +189,17 @@ void AddFitCommand(CLI::App& app) {
       "Examples:\n"
       "  flocklift fit trajectories.csv --model boids --out run\n"
       "  flocklift fit trajectories.csv --model boids --free alpha_a,alpha_c --set d_v=15\n"
+      "  flocklift fit trajectories.csv --free alpha_s,alpha_a,d_s,d_v "
+      "--set taper=1,cruise=0,noise_time=0\n"
       "  flocklift fit truth/trajectories.csv --walls=-20,-20,2,20,20,22",
       {.fps = true, .seed = true}, &RunFit, &command);
   sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
   sub->add_option("--model", command->model, "the model; `flocklift simulate --list` names them")
       ->capture_default_str();
-  sub->add_option("--free", command->free, "weights to fit, separated by commas; default: all")
+  sub->add_option(
+         "--free", command->free,
+         "what to fit, separated by commas: weights and, of smooth models (tapers above 0, no "
+         "cruise, noise_time 0), radii too; default: all weights")
       ->delimiter(',');
   sub->add_option("--set", command->set, "NAME=VALUE of parameters that are not free")
       ->delimiter(',');

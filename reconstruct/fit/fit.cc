@@ -30,6 +30,8 @@ constexpr std::size_t kFrameEffects = 5;  // animals a frame that frame effects 
 // A weight is determined when its 95 % interval leaves 0 out, or when all of the interval would
 // change accelerations by less than this share of what the model explains.
 constexpr double kSmallShare = 0.25;
+// A radius or another parameter that is no weight, when its interval is within this share of it.
+constexpr double kRadiusShare = 0.25;
 // ... and when one more depth error of the stated size changes it, and its term, by less than this.
 constexpr double kDepthShare = 0.5;
 
@@ -54,11 +56,11 @@ class Fitter {
   FitResult Run(const Progress& progress) {
     model_ = CompleteModel(problem_.model);
     free_ = problem_.free.empty() ? DefaultFree(problem_) : problem_.free;
+    ChooseMethod();
     if (!problem_.walls && std::find(free_.begin(), free_.end(), "alpha_b") != free_.end()) {
       throw InputError(problem_.model.where, 0, "alpha_b is to be fitted, but there are no walls",
                        "say where the walls are, or leave alpha_b out");
     }
-    ChooseMethod();
     WidenSpeedLimits(problem_, flock_, &model_, &result_.warnings);
     UseGoal({});  // also checks the names
     result_.parameters.model = model_;
@@ -93,7 +95,8 @@ class Fitter {
  private:
   void UseGoal(const std::optional<GoalSpec>& goal) {
     goal_ = goal;
-    std::vector<std::string> names = free_;
+    std::vector<std::string> names(free_.begin(),
+                                   free_.begin() + static_cast<std::ptrdiff_t>(weights_));
     if (goal) names.push_back(kGoalWeight);
     // A goal that moves pushes all animals alike by its motion; what their cruising speeds have in
     // common is then taken from their speeds.
@@ -104,22 +107,49 @@ class Fitter {
     terms_ = MakeFlockTerms(model_, names, problem_.walls, goal, cruising_speed_);
   }
 
+  // Also puts the parameters that are not weights, which only a state-space estimate can free,
+  // last.
   void ChooseMethod() {
+    const std::vector<std::string> smooth = SmoothParameters(model_);
+    const auto is_smooth = [&](const std::string& name) {
+      return std::find(smooth.begin(), smooth.end(), name) != smooth.end();
+    };
     result_.method = problem_.method;
-    if (result_.method == FitMethod::kStateSpace) MakeProcessModel(model_, free_);  // or throws
-    if (result_.method != FitMethod::kAuto) return;
-    const bool smooth = IsSmooth(model_) && !trajectories_.has_sd_depth;
-    result_.method = smooth ? FitMethod::kStateSpace : FitMethod::kErrorsInVariables;
+    if (result_.method == FitMethod::kAuto) {
+      const bool possible = !smooth.empty() && !trajectories_.has_sd_depth &&
+                            std::all_of(problem_.free.begin(), problem_.free.end(), is_smooth);
+      result_.method = possible ? FitMethod::kStateSpace : FitMethod::kErrorsInVariables;
+    }
+    weights_ = free_.size();
+    if (result_.method != FitMethod::kStateSpace) return;
+    if (problem_.free.empty()) std::erase_if(free_, [&](const auto& n) { return !is_smooth(n); });
+    MakeProcessModel(model_, free_, problem_.walls);  // or throws
+    const std::vector<std::string> linear = LinearWeights(model_.name);
+    const auto others = std::stable_partition(free_.begin(), free_.end(), [&](const auto& name) {
+      return std::find(linear.begin(), linear.end(), name) != linear.end();
+    });
+    weights_ = static_cast<std::size_t>(others - free_.begin());
+    if (weights_ > 0) return;
+    throw InputError(problem_.model.where, 0, "none of the parameters to be fitted is a weight",
+                     "free one of those too: radii alone have nothing to start from");
   }
 
-  // From the regression's estimate, which it replaces.
+  // From the regression's estimate, which it replaces, and the other parameters as given.
   void EstimateStates(WhitenedFit* fit) {
-    const ProcessModel process = MakeProcessModel(model_, free_);
+    if (goal_) {
+      result_.method = FitMethod::kErrorsInVariables;
+      result_.warnings.emplace_back(
+          "a point attracts the animals, which a state-space estimate does not know: by "
+          "regression");
+      return;
+    }
+    const ProcessModel process = MakeProcessModel(model_, free_, problem_.walls);
+    std::vector<double> start = process.start;
+    std::copy(fit->regression.estimate.begin(), fit->regression.estimate.end(), start.begin());
     const StateSpaceOptions options{
         .filter = {.substeps = options_.substeps, .bridged_gap = options_.bridged_gap},
         .threads = threads_};
-    const StateSpaceFit states =
-        FitStateSpace(options, process, fit->regression.estimate, FilterInput(flock_));
+    const StateSpaceFit states = FitStateSpace(options, process, start, FilterInput(flock_));
     if (!states.IsUsable()) {
       fit->regression.status = RegressionStatus::kTooFewRows;
       return;
@@ -132,7 +162,20 @@ class Fitter {
     result_.diffusion = states.noise.diffusion;
     result_.diffusion_sd = states.diffusion_sd;
     result_.position_noise = std::sqrt(states.noise.position_variance);
-    u_ = Unexplained(rows_, states.estimate, whitening_.own_speed);
+    parameter_rms_ = ParameterRms(process, states.estimate, states.sd, flock_, options_.substeps);
+    if (weights_ < free_.size()) {  // the rows were made with the others as given
+      for (std::size_t c = weights_; c < free_.size(); ++c) {
+        model_.parameters[free_[c]] = states.estimate[c];
+      }
+      UseGoal({});
+      rows_ = Rows(flock_, {});
+    }
+    u_ = Unexplained(rows_, WeightsOf(states.estimate), whitening_.own_speed);
+  }
+
+  // Without the parameters that are none.
+  std::vector<double> WeightsOf(const std::vector<double>& theta) const {
+    return {theta.begin(), theta.begin() + static_cast<std::ptrdiff_t>(rows_.terms)};
   }
 
   void ChooseWhitening() {
@@ -225,10 +268,13 @@ class Fitter {
     const MotionRows& rows = rows_;
     const std::vector<double>& theta = fit.regression.estimate;
     const std::size_t p = theta.size();
-    std::vector<double> rms(p);
-    for (std::size_t c = 0; c < p; ++c) {
+    std::vector<double> rms = parameter_rms_;
+    rms.resize(p);
+    for (std::size_t c = 0; c < rows.terms; ++c) {
       std::vector<Vec3d> term;
-      for (std::size_t k = 0; k < rows.size(); ++k) term.push_back(rows.features[k * (p + 1) + c]);
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        term.push_back(rows.features[k * (rows.terms + 1) + c]);
+      }
       rms[c] = std::sqrt(MeanSquare(term));
     }
     std::vector<Vec3d> explained;
@@ -241,19 +287,23 @@ class Fitter {
     least_squares.lagged = false;
     const WhitenedFit plain = SolveWhitened(least_squares, rows);
     std::vector<bool> positive;
-    for (const std::string& name : terms_.free) positive.push_back(IsPositive(name));
+    std::vector<std::string> names = terms_.free;
+    names.insert(names.end(), free_.begin() + static_cast<std::ptrdiff_t>(weights_), free_.end());
+    for (const std::string& name : names) positive.push_back(IsPositive(name));
     const std::vector<double> values =
         ProbableWeights(fit.regression, rms, result_.acceleration_sd, positive);
     u_ = Unexplained(rows, values, whitening_.own_speed);
     for (std::size_t c = 0; c < p; ++c) {
       FittedWeight weight;
-      weight.name = terms_.free[c];
+      weight.name = names[c];
       weight.estimate = theta[c];
       weight.sd = fit.regression.sd[c];
-      weight.plain = plain.regression.estimate[c];
+      const bool linear = c < rows.terms;
+      weight.plain = linear ? plain.regression.estimate[c] : std::nan("");
       const double half_width = 1.96 * weight.sd;
+      const double known = (linear ? 1 : kRadiusShare) * std::abs(weight.estimate);
       weight.determined = std::isfinite(weight.sd) && fit.converged &&
-                          (half_width < std::abs(weight.estimate) || half_width * rms[c] < small);
+                          (half_width < known || (linear && half_width * rms[c] < small));
       weight.value = values[c];
       // A term that never acted keeps the value it started with.
       if (rms[c] == 0 && model_.parameters.contains(weight.name)) {
@@ -288,7 +338,12 @@ class Fitter {
     const NoiseEstimate noise = EstimateNoise(rows, own, fit.rho, flock_.dt(), step);
     result_.noise_sd = noise.sd;
     result_.noise_time = noise.time;
-    if (!result_.diffusion_sd) result_.diffusion = noise.diffusion;
+    if (result_.diffusion_sd) {
+      result_.noise_sd = std::sqrt(2 * result_.diffusion / step);
+      result_.noise_time = 0;
+      return;  // smooth models know no speeds of the animals' own
+    }
+    result_.diffusion = noise.diffusion;
 
     const auto& parameters = result_.parameters.model.parameters;
     std::vector<double> values;
@@ -350,13 +405,13 @@ class Fitter {
   void WriteParametersOf(const WhitenedFit& fit) {
     auto& parameters = result_.parameters.model.parameters;
     ParameterPosterior& posterior = result_.parameters.posterior;
-    const std::size_t p = result_.weights.size(), model_weights = free_.size();
-    for (std::size_t c = 0; c < model_weights; ++c) {
+    const std::size_t p = result_.weights.size(), of_model = free_.size();
+    for (std::size_t c = 0; c < of_model; ++c) {
       const FittedWeight& weight = result_.weights[c];
       posterior.free.push_back(weight.name);
       posterior.sd.push_back(weight.sd);
       posterior.determined.push_back(weight.determined);
-      for (std::size_t d = 0; d < model_weights; ++d) {
+      for (std::size_t d = 0; d < of_model; ++d) {
         posterior.correlation.push_back(fit.regression.correlation[c * p + d]);
       }
       parameters[weight.name] = weight.value;
@@ -380,8 +435,10 @@ class Fitter {
   std::uint64_t seed_;
   int threads_;
   ObservedFlock flock_;
-  ModelSpec model_;                // complete
-  std::vector<std::string> free_;  // of the model
+  ModelSpec model_;                    // complete
+  std::vector<std::string> free_;      // of the model
+  std::size_t weights_ = 0;            // of them; then those by which accelerations are not linear
+  std::vector<double> parameter_rms_;  // of a state-space estimate
   std::optional<GoalSpec> goal_;
   double cruising_speed_ = 0;  // that the terms count on [m/s]
   FlockTerms terms_;

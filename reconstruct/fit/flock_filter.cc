@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "simulate/core/check.h"
+#include "simulate/forces/speed.h"
 
 namespace flocklift {
 namespace {
@@ -36,7 +38,9 @@ struct Transition {
   Matrix6 noise = Matrix6::Zero();
 };
 
-Transition TransitionOver(double dt, int substeps, double q, const OwnSlope& slope) {
+// `clamp`: what the model's speed limit lets through of a velocity's deviation.
+Transition TransitionOver(double dt, int substeps, double q, const OwnSlope& slope,
+                          const std::optional<Matrix3>& clamp) {
   const int steps = substeps > 0 ? substeps : kContinuousSteps;
   const double h = dt / steps;
   const Matrix3 one = Matrix3::Identity(), dx = AsMatrix(slope.position),
@@ -52,6 +56,11 @@ Transition TransitionOver(double dt, int substeps, double q, const OwnSlope& slo
     step += h * rate + 0.5 * h * h * rate * rate;
     noise << h * h / 3 * one, h / 2 * one, h / 2 * one, one;
     noise *= q * h;
+  }
+  if (clamp) step.bottomRows<3>() = *clamp * step.bottomRows<3>();
+  if (clamp && substeps > 0) {  // x moves by the clamped velocity
+    step.topRows<3>() << one, Matrix3::Zero();
+    step.topRows<3>() += h * step.bottomRows<3>();
   }
   Transition transition;
   for (int k = 0; k < steps; ++k) {
@@ -87,7 +96,9 @@ class Filter {
         q_(2 * noise.diffusion),
         variance_(noise.position_variance + kLeastVariance * q_ * std::pow(input.dt(), 3)),
         tracks_(static_cast<std::size_t>(input.animals())),
-        last_(static_cast<std::size_t>(input.animals())) {}
+        last_(static_cast<std::size_t>(input.animals())) {
+    if (model.speed_range) range_ = model.speed_range(theta);
+  }
 
   FilterSweep Run() {
     int frame = input_.first_frame();
@@ -111,6 +122,7 @@ class Filter {
     v_.resize(n);
     a_.resize(n);
     slopes_.resize(n);
+    clamps_.assign(n, std::nullopt);
     for (std::size_t k = 0; k < n; ++k) {
       x_[k] = tracks_[indices_[k]].x;
       v_[k] = tracks_[indices_[k]].v;
@@ -121,9 +133,10 @@ class Filter {
       Track& track = tracks_[indices_[k]];
       track.x = x_[k];
       track.v = v_[k];
-      if (!track.has_transition || !(track.slope == slopes_[k])) {
+      if (!track.has_transition || clamps_[k] || !(track.slope == slopes_[k])) {
         track.slope = slopes_[k];
-        track.transition = TransitionOver(input_.dt(), options_.substeps, q_, track.slope);
+        track.transition =
+            TransitionOver(input_.dt(), options_.substeps, q_, track.slope, clamps_[k]);
         track.has_transition = true;
         track.settled = false;
       }
@@ -144,6 +157,7 @@ class Filter {
       if (!continuous) {
         for (std::size_t k = 0; k < n; ++k) {
           v_[k] += h * a_[k];
+          Limit(k);
           x_[k] += h * v_[k];
         }
         continue;
@@ -157,8 +171,18 @@ class Filter {
       for (std::size_t k = 0; k < n; ++k) {
         x_[k] = x0[k] + h * v0[k] + 0.5 * h * h * a_[k];
         v_[k] = v0[k] + h * a_[k];
+        Limit(k);
       }
     }
+  }
+
+  void Limit(std::size_t k) {
+    if (!range_) return;
+    const double speed = Norm(v_[k]);
+    if (speed <= 0 || (speed >= range_->low && speed <= range_->high)) return;
+    v_[k] = SpeedLimit::Limit(SpeedLimit::Params<double>{range_->low, range_->high, 0.0}, v_[k]);
+    const Vector3 along = AsEigen(v_[k]) / Norm(v_[k]);
+    clamps_[k] = Norm(v_[k]) / speed * (Matrix3::Identity() - along * along.transpose());
   }
 
   void Correct(int frame, const std::vector<FilterInput::Sighting>& sightings) {
@@ -247,6 +271,8 @@ class Filter {
   std::vector<std::size_t> indices_;  // of active tracks
   std::vector<Vec3d> x_, v_, a_;
   std::vector<OwnSlope> slopes_;
+  std::vector<std::optional<Matrix3>> clamps_;  // of those whose speed limit acted in the frame
+  std::optional<SpeedRange> range_;
   FilterSweep sweep_;
 };
 

@@ -4,8 +4,10 @@
 #include "reconstruct/fit/process_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
+#include "reconstruct/fit/boids_process.h"
 #include "simulate/core/check.h"
 #include "simulate/core/suggest.h"
 #include "simulate/flock/model.h"
@@ -13,6 +15,8 @@
 
 namespace flocklift {
 namespace {
+
+constexpr int kRmsFrames = 50;  // looked at for the rms of a parameter
 
 // A value that is given, or one of theta.
 struct Source {
@@ -56,22 +60,26 @@ class LinearProcess {
   Source cohesion_, alignment_;
 };
 
-std::vector<std::string> SmoothParameters(const std::string& model) {
-  if (model == "linear") return {"cohesion", "alignment"};
+}  // namespace
+
+std::vector<std::string> SmoothParameters(const ModelSpec& model) {
+  const ModelParameters resolved = ResolveModel(model);
+  if (std::holds_alternative<LinearParameters<double>>(resolved)) return {"cohesion", "alignment"};
+  if (const auto* boids = std::get_if<BoidsParameters<double>>(&resolved)) {
+    return SmoothBoidsParameters(*boids);
+  }
   return {};
 }
 
-}  // namespace
-
-bool IsSmooth(const ModelSpec& model) { return !SmoothParameters(model.name).empty(); }
-
-ProcessModel MakeProcessModel(const ModelSpec& model, const std::vector<std::string>& free) {
+ProcessModel MakeProcessModel(const ModelSpec& model, const std::vector<std::string>& free,
+                              const std::optional<Region>& walls) {
   const ModelParameters resolved = ResolveModel(model);
-  const std::vector<std::string> names = SmoothParameters(model.name);
+  const std::vector<std::string> names = SmoothParameters(model);
   if (names.empty()) {
     throw InputError(model.where, 0,
                      "model " + model.name + " is not smooth enough for a state-space fit",
-                     "take --method errors-in-variables");
+                     "take --method errors-in-variables, or for boids --set a taper above 0, "
+                     "noise_time = 0 and cruise = 0");
   }
   const ModelSpec complete = CompleteModel(model);
   ProcessModel process;
@@ -83,8 +91,40 @@ ProcessModel MakeProcessModel(const ModelSpec& model, const std::vector<std::str
     }
     process.start.push_back(complete.parameters.at(name));
   }
-  process.evaluate = LinearProcess(std::get<LinearParameters<double>>(resolved), free);
+  if (const auto* boids = std::get_if<BoidsParameters<double>>(&resolved)) {
+    SetBoidsProcess(*boids, walls, &process);
+  } else {
+    process.evaluate = LinearProcess(std::get<LinearParameters<double>>(resolved), free);
+  }
   return process;
+}
+
+std::vector<double> ParameterRms(const ProcessModel& model, const std::vector<double>& theta,
+                                 const std::vector<double>& sd, const ObservedFlock& flock,
+                                 int substeps) {
+  std::vector<double> squares(theta.size());
+  double count = 0;
+  const FrameSpan span = flock.span();
+  const int stride = std::max(1, (span.last - span.first) / kRmsFrames);
+  for (int f = span.first; f <= span.last; f += stride) {
+    const ObservedFlock::State state = flock.Between(f, 0, 1, substeps > 0 ? 1.0 / substeps : 0);
+    std::vector<Vec3d> low(state.position.size()), high(state.position.size());
+    for (std::size_t p = 0; p < theta.size(); ++p) {
+      const double size = std::max(std::abs(theta[p]), 1e-3);
+      const double half = std::isfinite(sd[p]) ? std::min(0.1 * sd[p], 1e-3 * size) : 1e-3 * size;
+      std::vector<double> moved = theta;
+      moved[p] = theta[p] - half;
+      model.evaluate(moved, state.position, state.velocity, low, {});
+      moved[p] = theta[p] + half;
+      model.evaluate(moved, state.position, state.velocity, high, {});
+      for (std::size_t i = 0; i < low.size(); ++i) {
+        squares[p] += SquaredNorm(high[i] - low[i]) / (12 * half * half);
+      }
+    }
+    count += static_cast<double>(low.size());
+  }
+  for (double& square : squares) square = std::sqrt(square / std::max(count, 1.0));
+  return squares;
 }
 
 }  // namespace flocklift

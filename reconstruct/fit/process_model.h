@@ -11,10 +11,12 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "reconstruct/fit/observed_flock.h"
 #include "simulate/core/scene.h"
 
 namespace flocklift {
@@ -26,6 +28,10 @@ struct OwnSlope {
   bool operator==(const OwnSlope&) const = default;
 };
 
+struct SpeedRange {
+  double low = 0, high = 0;  // [m/s]
+};
+
 struct ProcessModel {
   std::vector<std::string> free;  // the p parameters of theta, by their names in the model
   std::vector<double> start;      // p: their values in the model
@@ -34,14 +40,26 @@ struct ProcessModel {
   std::function<void(std::span<const double> theta, std::span<const Vec3d> x,
                      std::span<const Vec3d> v, std::span<Vec3d> a, std::span<OwnSlope> slopes)>
       evaluate;
+  // The model's clamp, applied after every step; absent: none.
+  std::function<SpeedRange(std::span<const double> theta)> speed_range;
 };
 
-// Has the model accelerations that are smooth in states and parameters?
-bool IsSmooth(const ModelSpec& model);
+// The parameters that a state-space estimate of the model can free, none where it is not smooth:
+// all of `linear`; of boids whose windows have tapers, whose noise has no memory and which know no
+// cruising speeds of their own, the weights, radii, tapers and speed limits. InputError for a model
+// that does not exist.
+std::vector<std::string> SmoothParameters(const ModelSpec& model);
 
-// `model` gives every value that is not free. Throws InputError for a model that is not smooth and
-// a name that is none of its parameters.
-ProcessModel MakeProcessModel(const ModelSpec& model, const std::vector<std::string>& free);
+// `model` gives every value that is not free, `walls` the box of boids' boundary, if any. Throws
+// InputError for a model that is not smooth and a name that is none of its parameters.
+ProcessModel MakeProcessModel(const ModelSpec& model, const std::vector<std::string>& free,
+                              const std::optional<Region>& walls = {});
+
+// Per component, how much each parameter changes an acceleration: rms of da / d theta_p over the
+// observed flock [m/s^2 per unit]. The differences are small beside `sd`, where it is finite.
+std::vector<double> ParameterRms(const ProcessModel& model, const std::vector<double>& theta,
+                                 const std::vector<double>& sd, const ObservedFlock& flock,
+                                 int substeps);
 
 }  // namespace flocklift
 

@@ -189,6 +189,67 @@ TEST(Fit, EveryEstimatorByItsNameOnTheLinearFlock) {
   EXPECT_THROW(FitMethodOf("guess"), std::invalid_argument);
 }
 
+// Boids whose edges are soft, which know no cruising speeds and whose noise forgets at once.
+Scene SmoothScene(std::uint64_t seed) {
+  Scene scene = BoidsScene(seed);
+  scene.duration = 4;
+  scene.box = {{-10, -10, 0}, {10, 10, 20}};
+  scene.species[0].model.parameters.insert_or_assign("taper", 1.0);
+  for (const auto& [name, value] : std::map<std::string, double>{{"d_v", 6.0},
+                                                                 {"s_min", 3.0},
+                                                                 {"wall_taper", 3.0},
+                                                                 {"cruise", 0.0},
+                                                                 {"level", 0.0},
+                                                                 {"noise", 1.0},
+                                                                 {"noise_time", 0.0}}) {
+    scene.species[0].model.parameters[name] = value;
+  }
+  return scene;
+}
+
+TEST(Fit, RadiiThroughTheirTapersTogetherWithTheWeights) {
+  const Scene scene = SmoothScene(2);
+  const auto& truth = scene.species[0].model.parameters;
+  FitProblem problem;
+  problem.model = scene.species[0].model;
+  problem.walls = scene.box;
+  problem.free = {"d_s", "alpha_s", "alpha_c", "d_v", "alpha_a", "alpha_b"};
+  problem.model.parameters["d_s"] = 2.3;
+  problem.model.parameters["d_v"] = 5.2;
+  const FitResult result = Fit(problem, Fly(scene));
+  ASSERT_TRUE(result.IsUsable());
+  EXPECT_EQ(result.method, FitMethod::kStateSpace);
+  EXPECT_TRUE(result.converged);
+  ASSERT_EQ(result.weights.size(), 6U);
+  for (const FittedWeight& weight : result.weights) {
+    EXPECT_LT(std::abs(weight.estimate - truth.at(weight.name)), 3 * weight.sd) << weight.name;
+    EXPECT_TRUE(weight.determined) << weight.name;
+    EXPECT_EQ(result.parameters.model.parameters.at(weight.name), weight.value);
+  }
+  EXPECT_LT(WeightOf(result, "d_s").sd, 0.02);
+  EXPECT_LT(WeightOf(result, "d_v").sd, 0.5);
+  EXPECT_TRUE(std::isnan(WeightOf(result, "d_v").plain));
+  EXPECT_EQ(result.parameters.posterior.correlation.size(), 36U);
+  EXPECT_GT(result.worst.sd, result.best.sd);
+  EXPECT_NEAR(result.noise_sd, 1, 0.1);
+}
+
+TEST(Fit, ARadiusThatNobodyCrossesIsNotDetermined) {
+  const Scene scene = SmoothScene(3);
+  FitProblem problem;
+  problem.model = scene.species[0].model;
+  problem.walls = scene.box;
+  problem.free = {"alpha_a", "alpha_s", "d_v"};
+  problem.model.parameters["d_v"] = 200;  // all are neighbours, as far as anybody can tell
+  const FitResult result = Fit(problem, Fly(scene));
+  ASSERT_TRUE(result.IsUsable());
+  EXPECT_FALSE(WeightOf(result, "d_v").determined);
+  EXPECT_TRUE(std::isinf(WeightOf(result, "d_v").sd));
+  EXPECT_TRUE(Warns(result, "do not determine d_v"));
+  problem.free = {"d_v"};
+  EXPECT_THROW(Fit(problem, Fly(scene)), InputError);  // nothing to start from
+}
+
 TEST(Fit, AStateSpaceEstimateIsRefusedWhereTheModelIsNotSmooth) {
   const Scene scene = BoidsScene(1);
   FitProblem problem = ProblemOf(scene);

@@ -163,7 +163,7 @@ TEST(ProcessModel, ItsSlopesAreThoseOfItsAccelerations) {
   EXPECT_NEAR((moved[1].z - a[1].z) / 2e-3, slopes[1].velocity[8], 1e-9);
   ModelSpec lin;
   lin.name = "lin";
-  EXPECT_FALSE(IsSmooth(lin));
+  EXPECT_TRUE(SmoothParameters(lin).empty());
   EXPECT_THROW(MakeProcessModel(lin, {}), InputError);
   lin.name = "linear";
   EXPECT_THROW(MakeProcessModel(lin, {"cohesio"}), InputError);
