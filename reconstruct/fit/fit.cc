@@ -252,6 +252,7 @@ class Fitter {
 
   void ChooseRows() {
     window_ = options_.window > 0 ? options_.window : ChooseWindow(flock_, options_.longest_window);
+    if (result_.method == FitMethod::kDifferences) window_ = 1;
     result_.window = window_;
     std::int64_t points = 0;
     for (int f = flock_.span().first; f <= flock_.span().last; ++f) points += flock_.Count(f);
@@ -260,6 +261,9 @@ class Fitter {
   }
 
   MotionRows Rows(const ObservedFlock& flock, const Progress& progress) const {
+    if (result_.method == FitMethod::kDifferences) {
+      return CentralDifferenceRows(terms_, flock, middles_);
+    }
     return BuildMotionRows({.window = window_, .substeps = options_.substeps, .threads = threads_},
                            terms_, flock, middles_, progress);
   }
@@ -285,7 +289,8 @@ class Fitter {
 
     WhiteningOptions least_squares = whitening_;
     least_squares.lagged = false;
-    const WhitenedFit plain = SolveWhitened(least_squares, rows);
+    const WhitenedFit plain =
+        SolveWhitened(least_squares, CentralDifferenceRows(terms_, flock_, middles_));
     std::vector<bool> positive;
     std::vector<std::string> names = terms_.free;
     names.insert(names.end(), free_.begin() + static_cast<std::ptrdiff_t>(weights_), free_.end());
@@ -299,7 +304,7 @@ class Fitter {
       weight.estimate = theta[c];
       weight.sd = fit.regression.sd[c];
       const bool linear = c < rows.terms;
-      weight.plain = linear ? plain.regression.estimate[c] : std::nan("");
+      weight.plain = linear && plain.IsUsable() ? plain.regression.estimate[c] : std::nan("");
       const double half_width = 1.96 * weight.sd;
       const double known = (linear ? 1 : kRadiusShare) * std::abs(weight.estimate);
       weight.determined = std::isfinite(weight.sd) && fit.converged &&
