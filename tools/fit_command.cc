@@ -16,6 +16,7 @@
 #include "simulate/core/parameters.h"
 #include "simulate/core/text.h"
 #include "tools/evaluate_files.h"
+#include "tools/fit_comparison.h"
 #include "tools/stage.h"
 #include "tools/walls.h"
 
@@ -113,6 +114,7 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
   for (const FittedWeight& weight : result.weights) {
     json["weights"].push_back(WeightAsJson(weight));
   }
+  json["correlation"] = result.parameters.posterior.correlation;
   json["best_direction"] = DirectionAsJson(result, result.best);
   json["worst_direction"] = DirectionAsJson(result, result.worst);
   return json;
@@ -175,11 +177,16 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
   if (!result.IsUsable()) {
     throw CannotFit(command.trajectories.string() + ": " + StatusText(result.status));
   }
+  const std::vector<ModelScore> scores = CompareModels(
+      options, problem, command.compare, trajectories, *fps, common.seed, common.ThreadCount());
   WriteParameters(common.out / "parameters.toml", result.parameters);
   for (const std::string& warning : result.warnings) stage.Warn(warning);
   stage.figures() = AsJson(result);
+  if (!scores.empty()) stage.figures()["comparison"] = ScoresAsJson(scores);
   stage.Finish();
-  if (!common.quiet && !common.json) PrintTable(result);
+  if (common.quiet || common.json) return;
+  PrintTable(result);
+  if (!scores.empty()) PrintScores(scores);
 }
 
 void AddFitCommand(CLI::App& app) {
@@ -191,6 +198,7 @@ void AddFitCommand(CLI::App& app) {
       "  flocklift fit trajectories.csv --model boids --free alpha_a,alpha_c --set d_v=15\n"
       "  flocklift fit trajectories.csv --free alpha_s,alpha_a,d_s,d_v "
       "--set taper=1,cruise=0,noise_time=0\n"
+      "  flocklift fit trajectories.csv --compare boids,linear\n"
       "  flocklift fit truth/trajectories.csv --walls=-20,-20,2,20,20,22",
       {.fps = true, .seed = true}, &RunFit, &command);
   sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
@@ -216,6 +224,10 @@ void AddFitCommand(CLI::App& app) {
                   "badly biased, for comparison), or auto, which never takes the last")
       ->check(CLI::IsMember({"auto", "state-space", "errors-in-variables", "differences"}))
       ->capture_default_str();
+  sub->add_option("--compare", command->compare,
+                  "models, separated by commas, to be fitted to all but the last part of the time "
+                  "too (--held-out) and compared there, with constant velocity, as a table")
+      ->delimiter(',');
   AddFlags(*sub, command->fit, "Fit");
 }
 

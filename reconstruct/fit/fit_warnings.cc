@@ -77,6 +77,11 @@ void AddWarnings(const FitOptions& options, double pull, double median_sd_depth,
                     "middle is {:.0f} % of what it leaves over; if there are walls, give them",
                     100 * pull));
   }
+  if (median_sd_depth > 0 && result->method == FitMethod::kStateSpace) {
+    warn(
+        "a state-space estimate takes position errors for alike in all directions and fresh in "
+        "every frame, which depth errors are not: errors-in-variables weighs them");
+  }
   if (median_sd_depth > 0 && factors.empty()) {
     warn(
         fmt::format("depth errors (median sd {:.2g} m) distort the weights; by how much could not "

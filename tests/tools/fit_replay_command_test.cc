@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -81,6 +82,35 @@ TEST_F(FitReplayCommandTest, FitWritesParametersAndWhatIsKnownOfThem) {
 
   const fs::path again = Run(Fit("--set d_s=2 --threads 3"), "again");
   EXPECT_EQ(Slurp(out / "parameters.toml"), Slurp(again / "parameters.toml"));
+}
+
+TEST_F(FitReplayCommandTest, FitComparesModelsOnHeldOutTime) {
+  const fs::path out = Run(Fit("--set d_s=2 --compare linear,boids"), "fit");
+  const nlohmann::json scores = Figures(out / "summary.fit.json").at("comparison");
+  ASSERT_EQ(scores.size(), 3U);
+  std::map<std::string, double> of;
+  for (std::size_t k = 0; k < 3; ++k) {
+    of[scores[k].at("model")] = scores[k].at("r2_held_out");
+    if (k > 0) {
+      EXPECT_LE(scores[k].at("r2_held_out"), scores[k - 1].at("r2_held_out"));
+    }
+  }
+  EXPECT_EQ(of.at("constant velocity"), 0);
+  EXPECT_EQ(scores[0].at("model"), "boids");  // which flew them
+  EXPECT_GT(of.at("boids"), 0);
+  EXPECT_ANY_THROW(Run(Fit("--compare lin"), "none"));  // moves positions directly
+  EXPECT_FALSE(fs::exists(folder_ / "none" / "parameters.toml"));
+}
+
+TEST_F(FitReplayCommandTest, FitNamesItsMethodAndSaysNoNumberForWhatIsNotKnown) {
+  const nlohmann::json figures =
+      Figures(Run(Fit("--set d_s=1e-6 --method differences"), "fit") / "summary.fit.json");
+  EXPECT_EQ(figures.at("method"), "differences");
+  for (const nlohmann::json& weight : figures.at("weights")) {
+    EXPECT_EQ(weight.at("value").is_null(), !weight.at("determined").get<bool>());
+    EXPECT_TRUE(weight.at("name") != "alpha_s" || weight.at("value").is_null());
+  }
+  EXPECT_ANY_THROW(Run(Fit("--method guess"), "none"));
 }
 
 TEST_F(FitReplayCommandTest, FitStartsFromAFileAndFreesWhatIsAsked) {

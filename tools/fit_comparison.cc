@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tools/fit_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+namespace flocklift {
+namespace {
+
+constexpr const char* kConstantVelocity = "constant velocity";
+
+}  // namespace
+
+std::vector<ModelScore> CompareModels(const FitOptions& options, const FitProblem& problem,
+                                      const std::vector<std::string>& models,
+                                      const Trajectories& trajectories, double fps,
+                                      std::uint64_t seed, int threads) {
+  if (models.empty()) return {};
+  std::vector<ModelScore> scores;
+  scores.push_back({.model = kConstantVelocity, .weights = 0, .r2_held_out = 0.0, .fault = {}});
+  FitOptions quick = options;
+  quick.depth_draws = 0;
+  if (quick.held_out == 0) quick.held_out = FitOptions().held_out;
+  for (const std::string& name : models) {
+    FitProblem other = problem;
+    other.method = FitMethod::kErrorsInVariables;
+    other.free.clear();
+    if (name != problem.model.name) {
+      other.model = ModelSpec{.name = name, .parameters = {}, .where = "--compare", .where_of = {}};
+    }
+    const FitResult result = FitModel(quick, other, trajectories, fps, seed, threads);
+    ModelScore score{.model = name,
+                     .weights = result.weights.size(),
+                     .r2_held_out = result.r2_held_out,
+                     .fault = {}};
+    if (!result.IsUsable()) score.fault = StatusText(result.status);
+    scores.push_back(score);
+  }
+  const auto value = [](const ModelScore& score) {
+    return score.r2_held_out.value_or(-std::numeric_limits<double>::infinity());
+  };
+  std::stable_sort(scores.begin(), scores.end(),
+                   [&](const ModelScore& a, const ModelScore& b) { return value(a) > value(b); });
+  return scores;
+}
+
+nlohmann::ordered_json ScoresAsJson(const std::vector<ModelScore>& scores) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const ModelScore& score : scores) {
+    json.push_back({{"model", score.model}, {"weights", score.weights}});
+    json.back()["r2_held_out"] =
+        score.r2_held_out ? nlohmann::ordered_json(*score.r2_held_out) : nlohmann::ordered_json();
+    if (!score.fault.empty()) json.back()["fault"] = score.fault;
+  }
+  return json;
+}
+
+void PrintScores(const std::vector<ModelScore>& scores) {
+  fmt::print(stderr, "  {:<18} {:>8} {:>12}\n", "model", "weights", "held-out R^2");
+  for (const ModelScore& score : scores) {
+    fmt::print(stderr, "  {:<18} {:>8} {:>12}\n", score.model, score.weights,
+               score.r2_held_out ? fmt::format("{:.4f}", *score.r2_held_out) : score.fault);
+  }
+}
+
+}  // namespace flocklift

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Several models of the same trajectories, compared by what they predict of the time that was held
+// out of their fits: 1 - sum |y - yhat|^2 / sum |y|^2 of accelerations after it, from states before
+// each (HeldOutR2 of reconstruct/fit/fit_measures.h). Constant velocity, yhat = 0, has 0 and is the
+// model to beat; below it a model explains nothing.
+
+#ifndef FLOCKLIFT_TOOLS_FIT_COMPARISON_H_
+#define FLOCKLIFT_TOOLS_FIT_COMPARISON_H_
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reconstruct/fit/fit.h"
+
+namespace flocklift {
+
+struct ModelScore {
+  std::string model;
+  std::size_t weights = 0;  // that were fitted
+  std::optional<double> r2_held_out;
+  std::string fault;  // why there is no score
+};
+
+// By errors-in-variables, each with all its weights and otherwise its defaults (the problem's
+// settings where it is the problem's model), best first, constant velocity among them; empty for
+// no names. Throws InputError for a model that does not exist or has no weights.
+std::vector<ModelScore> CompareModels(const FitOptions& options, const FitProblem& problem,
+                                      const std::vector<std::string>& models,
+                                      const Trajectories& trajectories, double fps,
+                                      std::uint64_t seed, int threads);
+
+nlohmann::ordered_json ScoresAsJson(const std::vector<ModelScore>& scores);
+void PrintScores(const std::vector<ModelScore>& scores);  // on standard error
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_TOOLS_FIT_COMPARISON_H_
