@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "reconstruct/fit/central_differences.h"
 #include "reconstruct/fit/depth_noise.h"
 #include "reconstruct/fit/fit_measures.h"
 #include "reconstruct/fit/fit_setup.h"
@@ -456,45 +457,6 @@ class Fitter {
 };
 
 }  // namespace
-
-std::string StatusText(FitStatus status) {
-  switch (status) {
-    case FitStatus::kOk:
-      return "fitted";
-    case FitStatus::kTooFewAnimals:
-      return "there are no animals to fit";
-    case FitStatus::kTooFewFrames:
-      return "too few frames: no animal has a run of frames that is long enough, or they span too "
-             "little time";
-    case FitStatus::kTooFewRows:
-      return "too few animals and frames for so many weights: free fewer";
-  }
-  return "";
-}
-
-std::string NameOf(FitMethod method) {
-  switch (method) {
-    case FitMethod::kAuto:
-      return "auto";
-    case FitMethod::kStateSpace:
-      return "state-space";
-    case FitMethod::kErrorsInVariables:
-      return "errors-in-variables";
-    case FitMethod::kDifferences:
-      return "differences";
-  }
-  return "";
-}
-
-FitMethod FitMethodOf(const std::string& name) {
-  for (const FitMethod method : {FitMethod::kAuto, FitMethod::kStateSpace,
-                                 FitMethod::kErrorsInVariables, FitMethod::kDifferences}) {
-    if (NameOf(method) == name) return method;
-  }
-  Check(false,
-        "--method " + name + " is none of auto, state-space, errors-in-variables and differences");
-  return FitMethod::kAuto;
-}
 
 FitResult FitModel(const FitOptions& options, const FitProblem& problem,
                    const Trajectories& trajectories, double fps, std::uint64_t seed, int threads,

@@ -71,13 +71,6 @@ MotionRows BuildMotionRows(const MotionOptions& options, const FlockTerms& terms
                            const ObservedFlock& flock, std::span<const int> middles,
                            const Progress& progress = {});
 
-// Plain central differences, which nobody should fit to: y = (x_{k+1} - 2 x_k + x_{k-1}) / dt^2 and
-// the terms at x_k and v = (x_{k+1} - x_{k-1}) / (2 dt), for Z and Z' too. Of a velocity that
-// diffuses, sum y v telescopes to the ends of the track: what damps velocities comes out as
-// nothing.
-MotionRows CentralDifferenceRows(const FlockTerms& terms, const ObservedFlock& flock,
-                                 std::span<const int> middles);
-
 // Mean square of second differences over m frames, per component [m^2]; NaN without any.
 double SecondDifferenceMeanSquare(const ObservedFlock& flock, int window);
 

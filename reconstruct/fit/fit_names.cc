@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the command line and the messages call the methods and outcomes of a fit.
+
+#include "reconstruct/fit/fit.h"
+#include "simulate/core/check.h"
+
+namespace flocklift {
+
+std::string StatusText(FitStatus status) {
+  switch (status) {
+    case FitStatus::kOk:
+      return "fitted";
+    case FitStatus::kTooFewAnimals:
+      return "there are no animals to fit";
+    case FitStatus::kTooFewFrames:
+      return "too few frames: no animal has a run of frames that is long enough, or they span too "
+             "little time";
+    case FitStatus::kTooFewRows:
+      return "too few animals and frames for so many weights: free fewer";
+  }
+  return "";
+}
+
+std::string NameOf(FitMethod method) {
+  switch (method) {
+    case FitMethod::kAuto:
+      return "auto";
+    case FitMethod::kStateSpace:
+      return "state-space";
+    case FitMethod::kErrorsInVariables:
+      return "errors-in-variables";
+    case FitMethod::kDifferences:
+      return "differences";
+  }
+  return "";
+}
+
+FitMethod FitMethodOf(const std::string& name) {
+  for (const FitMethod method : {FitMethod::kAuto, FitMethod::kStateSpace,
+                                 FitMethod::kErrorsInVariables, FitMethod::kDifferences}) {
+    if (NameOf(method) == name) return method;
+  }
+  Check(false,
+        "--method " + name + " is none of auto, state-space, errors-in-variables and differences");
+  return FitMethod::kAuto;
+}
+
+}  // namespace flocklift
