@@ -8,14 +8,19 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <string>
 
 #include "tools/command.h"
+#include "track/interchange/foreign_tracks.h"
 #include "track/tracker.h"
 
 namespace flocklift {
 
 struct TrackCommand {
-  std::filesystem::path video = {};        // file, pattern or folder
+  std::filesystem::path video = {};  // file, pattern or folder; may be empty with `from`
+  std::filesystem::path from = {};   // detections or tracks of another program; empty: none
+  std::string size = {};             // WIDTHxHEIGHT of the picture, where there is no video
+  ForeignOptions foreign = {};
   std::filesystem::path corrections = {};  // empty: none
   bool overlay = false;                    // write overlay.mp4
   TrackerOptions tracker = {};

@@ -70,15 +70,16 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
   tracks.fps = frames_per_second;
   const double long_frames = frames_per_second.value_or(30);
   for (const TrackRecord& record : records) {
-    if (static_cast<int>(record.sightings.size()) < options.min_length) continue;
-    if (static_cast<double>(record.sightings.size()) >= long_frames &&
+    const bool is_given = record.given_id != kNoId;
+    if (!is_given && static_cast<int>(record.sightings.size()) < options.min_length) continue;
+    if (!is_given && static_cast<double>(record.sightings.size()) >= long_frames &&
         StandsStill(record, options.min_travel)) {
       ++report->still_tracks;
       continue;
     }
     const std::vector<TrackPoint> sightings =
-        CompletedAtEdges(record.sightings, image_width, image_height);
-    if (static_cast<int>(sightings.size()) < options.min_length) continue;
+        is_given ? record.sightings : CompletedAtEdges(record.sightings, image_width, image_height);
+    if (!is_given && static_cast<int>(sightings.size()) < options.min_length) continue;
     std::vector<Measurement> measurements;
     for (const TrackPoint& s : sightings) {
       measurements.push_back({s.frame, s.position, s.variance, s.agility});
@@ -86,7 +87,7 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
     const std::vector<MotionState> states =
         Smooth(measurements, noise.ProcessVariance(record.size), noise.speed_sd);
     Tracklet tracklet;
-    tracklet.id = static_cast<Id>(tracks.tracklets.size()) + 1;
+    tracklet.id = is_given ? record.given_id : static_cast<Id>(tracks.tracklets.size()) + 1;
     std::size_t next = 0;
     for (std::size_t k = 0; k < states.size(); ++k) {
       const int frame = measurements.front().frame + static_cast<int>(k);
@@ -95,6 +96,12 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
       const Vec2d& p = states[k].position;
       if (sightings[next].frame == frame) {
         const TrackPoint& s = sightings[next++];
+        if (is_given) {
+          row.box = s.box;
+          row.confidence = s.given_confidence;
+          tracklet.detections.push_back(row);
+          continue;
+        }
         row.box = Box::Around(p, s.box.width, s.box.height);
         row.confidence = s.shared ? kSharedConfidence : 1.0;
         if (!s.shared) row.shape = s.shape;

@@ -81,6 +81,11 @@ TrackerResult TrackDetections(const TrackerOptions& options, std::span<const Det
                               double image_width, double image_height,
                               std::optional<double> fps = {});
 
+// Goes on from tracks that somebody else made: joins them over gaps and fills the gaps. The rows
+// that were given stay as they are, and so do the ids (of joined tracks the first one's).
+TrackerResult ContinueTracks(const TrackerOptions& options, const Tracks& tracks,
+                             double image_width, double image_height);
+
 }  // namespace flocklift
 
 #endif  // FLOCKLIFT_TRACK_TRACKER_H_

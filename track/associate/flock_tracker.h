@@ -50,9 +50,10 @@ struct TrackPoint {
   Box box;              // of the blob; of an animal like it where the blob is shared [px]
   Edges edges = {};     // of the picture that the blob touches
   Shape shape = {};
-  bool shared = false;  // the blob held others too,
-  bool hidden = false;  // and could not be told from them
-  int blob = -1;        // its number in the frame's blobs
+  bool shared = false;          // the blob held others too,
+  bool hidden = false;          // and could not be told from them
+  int blob = -1;                // its number in the frame's blobs
+  double given_confidence = 1;  // of a row that somebody else made
 };
 
 // One animal's sightings by increasing frame.
@@ -60,6 +61,7 @@ struct TrackRecord {
   double size = 1;  // usual, square root of area [px]
   double mass = 0;  // usual
   std::vector<TrackPoint> sightings;
+  Id given_id = kNoId;  // of a track that somebody else made: its rows stay as they are
 };
 
 class FlockTracker {

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "track/linker.h"
+
+#include <utility>
+
+#include "track/associate/uncross.h"
+#include "track/finish.h"
+#include "track/stopwatch.h"
+
+namespace flocklift::internal {
+namespace {
+
+constexpr std::size_t kLearnBlobFrames = 90;  // for the motion noise
+constexpr int kLeastPath = 8;                 // frames of a path that teaches motion
+constexpr int kRelearnInterval = 100;         // frames
+
+}  // namespace
+
+void Linker::Add(BlobFrame frame) {
+  if (tracker_) {
+    Step(frame);
+    return;
+  }
+  first_.push_back(std::move(frame));
+  if (first_.size() == kLearnBlobFrames) Start();
+}
+
+void Linker::Start() {
+  noise_ = EstimateMotionNoise(UnmistakablePaths(first_, kLeastPath), MotionNoise{});
+  tracker_.emplace(options_.associate, noise_, width_, height_);
+  for (const BlobFrame& frame : first_) Step(frame);
+  first_.clear();
+}
+
+void Linker::Step(const BlobFrame& frame) {
+  tracker_->Step(frame);
+  if (++steps_ % kRelearnInterval != 0) return;
+  noise_ = EstimateMotionNoise(tracker_->RecentPaths(kLeastPath), noise_);
+  tracker_->SetNoise(noise_);
+}
+
+TrackerResult Linker::Finish(std::optional<double> fps, TrackerReport report) {
+  double seconds = 0;
+  TrackerResult result = Timed(&seconds, [&] {
+    if (!tracker_) Start();
+    return JoinAndFinish(options_, noise_, fps, width_, height_, tracker_->Finish(),
+                         std::move(report));
+  });
+  result.report.timings.finish_s = seconds;
+  return result;
+}
+
+TrackerResult JoinAndFinish(const TrackerOptions& options, const MotionNoise& noise,
+                            std::optional<double> fps, double width, double height,
+                            std::vector<TrackRecord> records, TrackerReport report) {
+  TrackerResult result;
+  result.report = std::move(report);
+  result.report.noise = noise;
+  result.report.exchanges = Uncross(noise, &records);
+  int joins = 0;
+  records = Stitch(options.stitch, noise, width, height, std::move(records), &joins);
+  result.report.joins = joins;
+  result.tracks = FinishTracks(options, noise, fps, width, height, records, &result.report);
+  return result;
+}
+
+}  // namespace flocklift::internal

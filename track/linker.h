@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Blobs in, tracks out, frame by frame: keeps the first frames until the motion noise is learned,
+// learns it anew as the footage goes on, and at the end mends, stitches and finishes the tracks.
+
+#ifndef FLOCKLIFT_TRACK_LINKER_H_
+#define FLOCKLIFT_TRACK_LINKER_H_
+
+#include <optional>
+#include <vector>
+
+#include "track/associate/flock_tracker.h"
+#include "track/tracker.h"
+
+namespace flocklift::internal {
+
+class Linker {
+ public:
+  // `options` must outlive the linker. Width and height are the picture's [px].
+  Linker(const TrackerOptions& options, double width, double height)
+      : options_(options), width_(width), height_(height) {}
+
+  void Add(BlobFrame frame);
+
+  // Call once, at the end. `report` holds what is known of the detection; its counts go on.
+  TrackerResult Finish(std::optional<double> fps, TrackerReport report);
+
+ private:
+  void Start();
+  void Step(const BlobFrame& frame);
+
+  const TrackerOptions& options_;
+  double width_, height_;
+  MotionNoise noise_;
+  std::vector<BlobFrame> first_;
+  std::optional<FlockTracker> tracker_;
+  int steps_ = 0;
+};
+
+// What is left to do when all sightings are there: mend, stitch, finish.
+TrackerResult JoinAndFinish(const TrackerOptions& options, const MotionNoise& noise,
+                            std::optional<double> fps, double width, double height,
+                            std::vector<TrackRecord> records, TrackerReport report);
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_TRACK_LINKER_H_
