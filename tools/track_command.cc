@@ -4,20 +4,23 @@
 #include "tools/track_command.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <vector>
 
 #include "simulate/core/atomic_file.h"
 #include "simulate/core/check.h"
 #include "simulate/core/io.h"
-#include "tools/size_text.h"
 #include "tools/stage.h"
+#include "tools/track_from.h"
 #include "tools/track_overlay.h"
+#include "tools/track_picture.h"
 #include "track/correct.h"
+#include "track/density_flow.h"
 #include "track/video_source.h"
 
 namespace flocklift {
@@ -39,6 +42,8 @@ void SetFigures(const TrackerReport& report, const Tracks& tracks, Stage* stage)
       {"exchanges", report.exchanges},
       {"still_tracks_dropped", report.still_tracks},
       {"polarity", report.dark ? (report.bright ? "both" : "dark") : "bright"},
+      {"separable_share", report.separability.share},
+      {"camera_moves", report.camera_moves},
       {"usual_length_px", report.usual_length_px},
       {"usual_contrast", report.usual_contrast},
       {"process_noise_sizes", report.noise.acceleration},
@@ -47,61 +52,10 @@ void SetFigures(const TrackerReport& report, const Tracks& tracks, Stage* stage)
       {"part_seconds",
        {{"decode", t.decode_s},
         {"detect", t.detect_s},
+        {"camera", t.camera_s},
         {"associate", t.associate_s},
         {"finish", t.finish_s}}}};
   stage->figures().update(figures);
-}
-
-struct PictureSize {
-  double width = 0, height = 0;
-};
-
-// The video's, what the flag says, or that of a picture which holds all the boxes.
-PictureSize SizeOf(const TrackCommand& command, const ForeignTracks& foreign) {
-  if (!command.video.empty()) {
-    const VideoSource video(command.video);
-    return {static_cast<double>(video.width()), static_cast<double>(video.height())};
-  }
-  if (!command.size.empty()) {
-    const auto [width, height] = ParseSize(command.size, "--size");
-    return {static_cast<double>(width), static_cast<double>(height)};
-  }
-  PictureSize size{1, 1};
-  const auto hold = [&size](const Detection& d) {
-    size.width = std::max(size.width, d.box.left + d.box.width);
-    size.height = std::max(size.height, d.box.top + d.box.height);
-  };
-  for (const Tracklet& t : foreign.tracks.tracklets) {
-    std::for_each(t.detections.begin(), t.detections.end(), hold);
-  }
-  for (const DetectionFrame& f : foreign.detections) {
-    std::for_each(f.detections.begin(), f.detections.end(), hold);
-  }
-  return size;
-}
-
-// Goes on from what another program found.
-TrackerResult TrackFrom(const TrackCommand& command, const CommonOptions& common, Stage* stage) {
-  ForeignTracks foreign = ReadForeignTracks(command.from, command.foreign);
-  const PictureSize size = SizeOf(command, foreign);
-  std::optional<double> fps = common.fps ? common.fps : foreign.tracks.fps;
-  if (!fps && !command.video.empty()) fps = VideoSource(command.video).fps();
-  foreign.tracks.fps = fps;
-  TrackerResult result =
-      foreign.has_ids
-          ? ContinueTracks(command.tracker, foreign.tracks, size.width, size.height)
-          : TrackDetections(command.tracker, foreign.detections, size.width, size.height, fps);
-  if (!foreign.has_boxes) {
-    for (Tracklet& t : result.tracks.tracklets) {
-      for (Detection& d : t.detections) d.shape.reset();
-    }
-    stage->Warn(
-        fmt::format("the {} file has positions only: all boxes are {:g} px wide; use "
-                    "--no-size when you reconstruct",
-                    foreign.layout, command.foreign.box));
-  }
-  stage->figures()["layout"] = foreign.layout;
-  return result;
 }
 
 // The last frame of the footage, as far as it is known.
@@ -113,6 +67,41 @@ int FrameCount(const TrackerResult& result) {
   return last;
 }
 
+// What can be said instead of identities.
+void MeasureFlow(const TrackCommand& command, const CommonOptions& common, const Progress& progress,
+                 Stage* stage) {
+  const DensityFlow flow = MeasureDensityFlow(command.tracker.detect, command.video, progress);
+  WriteDensityFlow(common.out / "density_flow.csv", flow);
+  stage->AddOutput("density_flow.csv");
+  stage->figures()["declined"] = true;
+  stage->figures()["animals_median"] = flow.median_count;
+  stage->figures()["density_per_megapixel"] = 1e6 * flow.median_density;
+  stage->figures()["flow_px_per_frame"] = flow.median_speed;
+  stage->figures()["polarisation"] = flow.polarisation;
+}
+
+// What to look at, the likeliest mistake first. `picture` is what --picture takes.
+void SetSuspicions(const std::vector<Suspicion>& suspicions, Stage* stage) {
+  constexpr std::size_t kMost = 50;
+  constexpr int kAround = 10;  // frames
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (std::size_t k = 0; k < std::min(suspicions.size(), kMost); ++k) {
+    const Doubt& d = suspicions[k].doubt;
+    list.push_back(
+        {{"frame", d.first_frame},
+         {"last_frame", d.last_frame},
+         {"kind", NameOf(d.kind)},
+         {"ids", suspicions[k].ids},
+         {"x", std::round(10 * d.position.x) / 10},
+         {"y", std::round(10 * d.position.y) / 10},
+         {"chance", std::round(1000 * d.chance) / 1000},
+         {"picture", fmt::format("{}:{}:{}", std::max(1, d.first_frame - kAround),
+                                 d.last_frame + kAround, fmt::join(suspicions[k].ids, ","))}});
+  }
+  stage->figures()["suspicious_count"] = suspicions.size();
+  stage->figures()["suspicious"] = std::move(list);
+}
+
 }  // namespace
 
 void RunTrack(const TrackCommand& command, const CommonOptions& common) {
@@ -120,14 +109,21 @@ void RunTrack(const TrackCommand& command, const CommonOptions& common) {
   if (!has_video && command.from.empty()) {
     throw CLI::ValidationError("track", "give a video, or --from with what another program found");
   }
-  if (!has_video && command.overlay) {
-    throw CLI::ValidationError("--overlay", "there is no video to draw over");
+  if (!has_video && (command.overlay || !command.pictures.empty())) {
+    throw CLI::ValidationError("--overlay and --picture", "there is no video to draw over");
   }
   if (has_video) const VideoSource readable(command.video);  // fails early, says what is wrong
   std::vector<Correction> corrections;
   if (!command.corrections.empty()) corrections = ReadCorrections(command.corrections);
 
-  Stage stage("track", common);
+  std::vector<PictureSpan> spans;
+  for (const std::string& text : command.pictures) {
+    spans.push_back(ParsePictureSpan(text, "--picture"));
+  }
+
+  CommonOptions stage_options = common;  // for a picture, tracks that are there need no new run
+  stage_options.reuse = common.reuse || !spans.empty();
+  Stage stage("track", stage_options);
   stage.options() = OptionsAsJson(command.tracker);
   stage.options()["overlay"] = command.overlay;
   if (common.fps) stage.options()["fps"] = *common.fps;
@@ -145,7 +141,15 @@ void RunTrack(const TrackCommand& command, const CommonOptions& common) {
   stage.AddOutput("tracks.csv");
   stage.AddOutput("shapes.csv");
   if (command.overlay) stage.AddOutput("overlay.mp4");
-  if (stage.IsUpToDate()) return;
+  const auto write_pictures = [&](const Tracks& tracks) {
+    for (const PictureSpan& span : spans) {
+      WriteTrackPicture(command.video, tracks, span, common.out / NameOfPicture(span));
+    }
+  };
+  if (stage.IsUpToDate()) {
+    if (!spans.empty()) write_pictures(ReadTracks(common.out / "tracks.csv"));
+    return;
+  }
 
   const Progress progress = stage.BeginPhase("track");
   TrackerResult result = command.from.empty()
@@ -156,7 +160,12 @@ void RunTrack(const TrackCommand& command, const CommonOptions& common) {
     ApplyCorrections(corrections, command.corrections.string(), FrameCount(result), &result.tracks);
   }
   for (const std::string& warning : result.report.warnings) stage.Warn(warning);
-  if (result.tracks.tracklets.empty()) {
+  const bool has_declined = has_video && !result.report.separability.is_enough;
+  if (has_declined) {
+    stage.Warn(WhyDeclined(result.report.separability));
+    const Progress flow_progress = stage.BeginPhase("flow");
+    MeasureFlow(command, common, flow_progress, &stage);
+  } else if (result.tracks.tracklets.empty()) {
     stage.Warn("no animal was found: lower --threshold, or set --polarity and --window");
   }
 
@@ -168,6 +177,8 @@ void RunTrack(const TrackCommand& command, const CommonOptions& common) {
   WriteTracks(common.out / "tracks.csv", result.tracks);
   WriteShapes(common.out / "shapes.csv", result.tracks);
   SetFigures(result.report, result.tracks, &stage);
+  SetSuspicions(result.report.suspicions, &stage);
+  write_pictures(result.tracks);
   stage.Finish();
 }
 
@@ -179,7 +190,8 @@ void AddTrackCommand(CLI::App& app) {
       "  flocklift track flock.mp4 --out run\n"
       "  flocklift track 'frames/img_%04d.png' --fps 30 --overlay --out run\n"
       "  flocklift track flock.mp4 --corrections corrections.txt --out run\n"
-      "  flocklift track flock.mp4 --from trackpy.csv --out run",
+      "  flocklift track flock.mp4 --from trackpy.csv --out run\n"
+      "  flocklift track flock.mp4 --picture 118:140:4,7 --out run",
       {.fps = true}, &RunTrack, &command);
   sub->add_option("video", command->video,
                   "a video file, a pattern of pictures (img_%04d.png) or a folder of pictures");
@@ -189,6 +201,9 @@ void AddTrackCommand(CLI::App& app) {
   sub->add_option("--size", command->size, "WIDTHxHEIGHT of the picture, where no video is given");
   AddFlags(*sub, command->foreign, "Other programs' files", "from-");
   sub->add_flag("--overlay", command->overlay, "write overlay.mp4: the tracks over the footage");
+  sub->add_option("--picture", command->pictures,
+                  "draw frames for a decision, FIRST:LAST or FIRST:LAST:ID,ID (cut out around "
+                  "these); a run that is there is not made again");
   sub->add_option(
       "--corrections", command->corrections,
       "a file of corrections, one a line: swap ID ID FRAME, split ID FRAME, join ID ID, "

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tools/command.h"
 #include "track/interchange/foreign_tracks.h"
@@ -22,6 +23,7 @@ struct TrackCommand {
   std::string size = {};             // WIDTHxHEIGHT of the picture, where there is no video
   ForeignOptions foreign = {};
   std::filesystem::path corrections = {};  // empty: none
+  std::vector<std::string> pictures = {};  // frame spans (track_picture.h)
   bool overlay = false;                    // write overlay.mp4
   TrackerOptions tracker = {};
 };

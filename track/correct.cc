@@ -5,17 +5,17 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "simulate/core/check.h"
+#include "track/relink.h"
 
 namespace flocklift {
 namespace {
 
-constexpr double kFilledConfidence = 0.4;
-
-using Rows = std::map<int, Detection>;  // by frame
+using Rows = internal::TrackRows;
 
 class Corrector {
  public:
@@ -34,7 +34,7 @@ class Corrector {
     line_ = c.line;
     switch (c.kind) {
       case Correction::Kind::kSwap:
-        Swap(&RowsOf(c.id), &RowsOf(c.other_id), Frame(c.first_frame));
+        Swap(c.id, c.other_id, Frame(c.first_frame));
         break;
       case Correction::Kind::kSplit:
         Split(c.id, Frame(c.first_frame));
@@ -45,15 +45,14 @@ class Corrector {
       case Correction::Kind::kDelete:
         Delete(c);
         break;
-      case Correction::Kind::kPin: {
-        Rows& rows = RowsOf(c.id);
-        const Detection& like = Nearest(rows, Frame(c.first_frame));
-        Put(c, like.box.width, like.box.height, &rows);
-        Fill(&rows, c.first_frame);
+      case Correction::Kind::kPin:
+        RowsOf(c.id);
+        internal::Relink(c.id, {Frame(c.first_frame), c.point}, pinned_[c.id], &rows_, &next_id_);
+        pinned_[c.id].insert(c.first_frame);
         break;
-      }
       case Correction::Kind::kAdd: {
         const auto [width, height] = UsualSize(Frame(c.first_frame));
+        pinned_[next_id_].insert(c.first_frame);
         Put(c, width, height, &rows_[next_id_++]);
         break;
       }
@@ -96,15 +95,17 @@ class Corrector {
     return frame;
   }
 
-  static void Swap(Rows* a, Rows* b, int frame) {
-    const auto cut = [frame](Rows* rows) {
-      Rows tail(rows->lower_bound(frame), rows->end());
-      rows->erase(rows->lower_bound(frame), rows->end());
+  void Swap(Id a, Id b, int frame) {
+    internal::SwapRows(frame, &RowsOf(a), &RowsOf(b));
+    const auto cut = [frame](std::set<int>* pins) {
+      const std::set<int> tail(pins->lower_bound(frame), pins->end());
+      pins->erase(pins->lower_bound(frame), pins->end());
       return tail;
     };
-    Rows tail_a = cut(a), tail_b = cut(b);
-    a->merge(tail_b);
-    b->merge(tail_a);
+    std::set<int>&pins_a = pinned_[a], &pins_b = pinned_[b];
+    const std::set<int> tail_a = cut(&pins_a), tail_b = cut(&pins_b);
+    pins_a.insert(tail_b.begin(), tail_b.end());
+    pins_b.insert(tail_a.begin(), tail_a.end());
   }
 
   void Split(Id id, int frame) {
@@ -118,6 +119,9 @@ class Corrector {
     Rows& head = rows_[id];
     tail = Rows(head.lower_bound(frame), head.end());
     head.erase(head.lower_bound(frame), head.end());
+    std::set<int>& pins = pinned_[id];
+    pinned_[next_id_ - 1].insert(pins.lower_bound(frame), pins.end());
+    pins.erase(pins.lower_bound(frame), pins.end());
   }
 
   void Join(Id id, Id other_id) {
@@ -135,8 +139,9 @@ class Corrector {
       it->second = detection;
     }
     other.clear();
-    Fill(&rows, from);
-    Fill(&rows, to);
+    internal::FillBeside(from, &rows);
+    internal::FillBeside(to, &rows);
+    pinned_[id].merge(pinned_[other_id]);
   }
 
   void Delete(const Correction& c) {
@@ -154,14 +159,6 @@ class Corrector {
                std::to_string(rows.rbegin()->first));
     }
     rows.erase(first, end);
-  }
-
-  static const Detection& Nearest(const Rows& rows, int frame) {
-    auto after = rows.lower_bound(frame);
-    if (after == rows.end()) return rows.rbegin()->second;
-    if (after == rows.begin()) return after->second;
-    const auto before = std::prev(after);
-    return frame - before->first <= after->first - frame ? before->second : after->second;
   }
 
   // Median box of the frame's animals; of all animals where the frame has none.
@@ -192,33 +189,12 @@ class Corrector {
     (*rows)[c.first_frame] = detection;
   }
 
-  // Interpolates between the row of `frame` and the rows before and after it.
-  static void Fill(Rows* rows, int frame) {
-    const auto at = rows->find(frame);
-    const auto between = [rows](const Detection& a, const Detection& b) {
-      for (int f = a.frame + 1; f < b.frame; ++f) {
-        const double w = static_cast<double>(f - a.frame) / (b.frame - a.frame);
-        Detection row;
-        row.frame = f;
-        row.box = {a.box.left + w * (b.box.left - a.box.left),
-                   a.box.top + w * (b.box.top - a.box.top),
-                   a.box.width + w * (b.box.width - a.box.width),
-                   a.box.height + w * (b.box.height - a.box.height)};
-        row.confidence = kFilledConfidence;
-        rows->emplace(f, row);
-      }
-    };
-    const Detection here = at->second;
-    if (at != rows->begin()) between(std::prev(at)->second, here);
-    const auto after = rows->upper_bound(frame);
-    if (after != rows->end()) between(here, after->second);
-  }
-
   std::string file_;
   int frame_count_ = 0;
   int line_ = 0;
   Id next_id_;
   std::map<Id, Rows> rows_;
+  std::map<Id, std::set<int>> pinned_;  // frames in which a person has said where the animal is
 };
 
 }  // namespace

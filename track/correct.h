@@ -6,7 +6,8 @@
 //   split A F            A's rows from frame F on become a new animal
 //   join A B             B's rows become A's; what lies between is interpolated
 //   delete A [F L]       A's rows go, all or those of frames F to L
-//   pin A F X Y          A is at (X, Y) in frame F; a gap beside it is interpolated
+//   pin A F X Y          A is at (X, Y) in frame F; its path between the pins before and after is
+//                        linked anew (relink.h), a gap beside it is interpolated
 //   add F X Y            a new animal, seen in frame F at (X, Y)
 // New ids follow the largest id so far. A pinned or added row has confidence 1 and no shape.
 

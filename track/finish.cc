@@ -11,8 +11,8 @@
 namespace flocklift::internal {
 namespace {
 
-constexpr double kSharedConfidence = 0.7;
-constexpr double kFilledConfidence = 0.4;
+constexpr double kMostSharedConfidence = 0.9;
+constexpr double kMostFilledConfidence = 0.49;
 constexpr std::size_t kLeastWhole = 5;  // sightings that tell an animal's usual size
 
 bool StandsStill(const TrackRecord& record, double min_travel) {
@@ -26,6 +26,25 @@ bool StandsStill(const TrackRecord& record, double min_travel) {
   return std::hypot(right - left, bottom - top) < min_travel * record.size;
 }
 
+Shape ShapeInImage(Shape shape, const Similarity& world_from_image) {
+  if (world_from_image.IsIdentity()) return shape;
+  const double zoom = std::hypot(world_from_image.a, world_from_image.b);
+  shape.major /= zoom;
+  shape.minor /= zoom;
+  shape.angle_deg = std::fmod(shape.angle_deg - world_from_image.angle_deg() + 360, 180);
+  return shape;
+}
+
+double SharedConfidence(double variance, double own_variance) {
+  const double ambiguity = std::clamp(1 - own_variance / variance, 0.0, 1.0);
+  return kMostSharedConfidence - (kMostSharedConfidence - kMeasuredConfidence) * ambiguity;
+}
+
+// `variance` of the place, per axis.
+double FilledConfidence(double variance, double size) {
+  return kMostFilledConfidence / (1 + 4 * variance / (size * size));
+}
+
 double Median(std::vector<double>* values) {
   const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
   std::nth_element(values->begin(), middle, values->end());
@@ -35,7 +54,8 @@ double Median(std::vector<double>* values) {
 // Where the picture's edge cuts an animal off, its centre is reckoned from the side that is seen
 // and its usual size; sightings whose centre is outside the picture are left out.
 std::vector<TrackPoint> CompletedAtEdges(const std::vector<TrackPoint>& sightings,
-                                         double image_width, double image_height) {
+                                         const CameraPath& camera, double image_width,
+                                         double image_height) {
   std::vector<double> widths, heights;
   for (const TrackPoint& s : sightings) {
     if (s.edges.any() || s.shared) continue;
@@ -47,6 +67,7 @@ std::vector<TrackPoint> CompletedAtEdges(const std::vector<TrackPoint>& sighting
   std::vector<TrackPoint> completed;
   for (TrackPoint s : sightings) {
     const Box& b = s.box;
+    s.position = camera.ToImage(s.frame, s.position);
     if (s.edges.left) s.position.x = std::min(s.position.x, b.left + b.width - 0.5 * width);
     if (s.edges.right) s.position.x = std::max(s.position.x, b.left + 0.5 * width);
     if (s.edges.top) s.position.y = std::min(s.position.y, b.top + b.height - 0.5 * height);
@@ -55,21 +76,36 @@ std::vector<TrackPoint> CompletedAtEdges(const std::vector<TrackPoint>& sighting
         s.position.y > image_height - 1) {
       continue;
     }
+    s.position = camera.ToWorld(s.frame, s.position);
     completed.push_back(s);
   }
   return completed;
+}
+
+Footage FootageOf(const std::vector<TrackRecord>& records, double width, double height) {
+  Footage footage{.width = width, .height = height};
+  if (records.empty()) return footage;
+  footage.first_frame = records[0].sightings.front().frame;
+  for (const TrackRecord& record : records) {
+    footage.first_frame = std::min(footage.first_frame, record.sightings.front().frame);
+    footage.last_frame = std::max(footage.last_frame, record.sightings.back().frame);
+  }
+  return footage;
 }
 
 }  // namespace
 
 Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
                     std::optional<double> frames_per_second, double image_width,
-                    double image_height, const std::vector<TrackRecord>& records,
+                    double image_height, const CameraPath& camera, std::vector<TrackRecord> records,
                     TrackerReport* report) {
   Tracks tracks;
   tracks.fps = frames_per_second;
   const double long_frames = frames_per_second.value_or(30);
-  for (const TrackRecord& record : records) {
+  const Footage footage = FootageOf(records, image_width, image_height);
+  std::vector<Id> ids(records.size(), kNoId);
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    TrackRecord& record = records[r];
     const bool is_given = record.given_id != kNoId;
     if (!is_given && static_cast<int>(record.sightings.size()) < options.min_length) continue;
     if (!is_given && static_cast<double>(record.sightings.size()) >= long_frames &&
@@ -78,7 +114,8 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
       continue;
     }
     const std::vector<TrackPoint> sightings =
-        is_given ? record.sightings : CompletedAtEdges(record.sightings, image_width, image_height);
+        is_given ? record.sightings
+                 : CompletedAtEdges(record.sightings, camera, image_width, image_height);
     if (!is_given && static_cast<int>(sightings.size()) < options.min_length) continue;
     std::vector<Measurement> measurements;
     for (const TrackPoint& s : sightings) {
@@ -88,12 +125,15 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
         Smooth(measurements, noise.ProcessVariance(record.size), noise.speed_sd);
     Tracklet tracklet;
     tracklet.id = is_given ? record.given_id : static_cast<Id>(tracks.tracklets.size()) + 1;
+    ids[r] = tracklet.id;
+    DoubtTrack(noise, footage, camera, &record);
+    for (Doubt& d : record.doubts) d.position = camera.ToImage(d.first_frame, d.position);
     std::size_t next = 0;
     for (std::size_t k = 0; k < states.size(); ++k) {
       const int frame = measurements.front().frame + static_cast<int>(k);
       Detection row;
       row.frame = frame;
-      const Vec2d& p = states[k].position;
+      const Vec2d p = camera.ToImage(frame, states[k].position);
       if (sightings[next].frame == frame) {
         const TrackPoint& s = sightings[next++];
         if (is_given) {
@@ -103,8 +143,9 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
           continue;
         }
         row.box = Box::Around(p, s.box.width, s.box.height);
-        row.confidence = s.shared ? kSharedConfidence : 1.0;
-        if (!s.shared) row.shape = s.shape;
+        row.confidence =
+            s.shared ? SharedConfidence(s.variance, noise.MeasurementVariance(record.size)) : 1.0;
+        if (!s.shared) row.shape = ShapeInImage(s.shape, camera.WorldFromImage(frame));
         report->shared_rows += s.shared ? 1 : 0;
       } else {
         if (p.x < 0 || p.y < 0 || p.x > image_width - 1 || p.y > image_height - 1) continue;
@@ -113,7 +154,7 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
         const double w = static_cast<double>(frame - before.frame) / (after.frame - before.frame);
         row.box = Box::Around(p, before.box.width + w * (after.box.width - before.box.width),
                               before.box.height + w * (after.box.height - before.box.height));
-        row.confidence = kFilledConfidence;
+        row.confidence = FilledConfidence(states[k].pp, record.size);
         ++report->filled_rows;
       }
       tracklet.detections.push_back(row);
@@ -121,6 +162,7 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
     report->rows += static_cast<std::int64_t>(tracklet.detections.size());
     tracks.tracklets.push_back(std::move(tracklet));
   }
+  report->suspicions = RankSuspicions(records, ids);
   return tracks;
 }
 

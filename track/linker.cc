@@ -19,6 +19,9 @@ constexpr int kRelearnInterval = 100;         // frames
 }  // namespace
 
 void Linker::Add(BlobFrame frame) {
+  if (has_declined()) return;
+  camera_.Add(frame.frame, frame.world_from_image);
+  Stabilise(&frame);
   if (tracker_) {
     Step(frame);
     return;
@@ -28,6 +31,12 @@ void Linker::Add(BlobFrame frame) {
 }
 
 void Linker::Start() {
+  separability_ = MeasureSeparability(first_);
+  separability_.is_enough = separability_.is_enough || !options_.decline;
+  if (has_declined()) {
+    first_.clear();
+    return;
+  }
   noise_ = EstimateMotionNoise(UnmistakablePaths(first_, kLeastPath), MotionNoise{});
   tracker_.emplace(options_.associate, noise_, width_, height_);
   for (const BlobFrame& frame : first_) Step(frame);
@@ -44,8 +53,11 @@ void Linker::Step(const BlobFrame& frame) {
 TrackerResult Linker::Finish(std::optional<double> fps, TrackerReport report) {
   double seconds = 0;
   TrackerResult result = Timed(&seconds, [&] {
-    if (!tracker_) Start();
-    return JoinAndFinish(options_, noise_, fps, width_, height_, tracker_->Finish(),
+    if (!tracker_ && !has_declined()) Start();
+    report.separability = separability_;
+    report.camera_moves = !camera_.rests();
+    return JoinAndFinish(options_, noise_, fps, width_, height_, camera_,
+                         tracker_ ? tracker_->Finish() : std::vector<TrackRecord>{},
                          std::move(report));
   });
   result.report.timings.finish_s = seconds;
@@ -54,7 +66,8 @@ TrackerResult Linker::Finish(std::optional<double> fps, TrackerReport report) {
 
 TrackerResult JoinAndFinish(const TrackerOptions& options, const MotionNoise& noise,
                             std::optional<double> fps, double width, double height,
-                            std::vector<TrackRecord> records, TrackerReport report) {
+                            const CameraPath& camera, std::vector<TrackRecord> records,
+                            TrackerReport report) {
   TrackerResult result;
   result.report = std::move(report);
   result.report.noise = noise;
@@ -62,7 +75,8 @@ TrackerResult JoinAndFinish(const TrackerOptions& options, const MotionNoise& no
   int joins = 0;
   records = Stitch(options.stitch, noise, width, height, std::move(records), &joins);
   result.report.joins = joins;
-  result.tracks = FinishTracks(options, noise, fps, width, height, records, &result.report);
+  result.tracks =
+      FinishTracks(options, noise, fps, width, height, camera, std::move(records), &result.report);
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "track/associate/flock_tracker.h"
+#include "track/camera_path.h"
 #include "track/tracker.h"
 
 namespace flocklift::internal {
@@ -23,6 +24,9 @@ class Linker {
 
   void Add(BlobFrame frame);
 
+  // Whether the first frames have shown that the animals cannot be told apart: nothing is linked.
+  bool has_declined() const { return !separability_.is_enough; }
+
   // Call once, at the end. `report` holds what is known of the detection; its counts go on.
   TrackerResult Finish(std::optional<double> fps, TrackerReport report);
 
@@ -33,6 +37,8 @@ class Linker {
   const TrackerOptions& options_;
   double width_, height_;
   MotionNoise noise_;
+  Separability separability_;
+  CameraPath camera_;
   std::vector<BlobFrame> first_;
   std::optional<FlockTracker> tracker_;
   int steps_ = 0;
@@ -41,7 +47,8 @@ class Linker {
 // What is left to do when all sightings are there: mend, stitch, finish.
 TrackerResult JoinAndFinish(const TrackerOptions& options, const MotionNoise& noise,
                             std::optional<double> fps, double width, double height,
-                            std::vector<TrackRecord> records, TrackerReport report);
+                            const CameraPath& camera, std::vector<TrackRecord> records,
+                            TrackerReport report);
 
 }  // namespace flocklift::internal
 

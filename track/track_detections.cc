@@ -96,7 +96,7 @@ TrackerResult ContinueTracks(const TrackerOptions& options, const Tracks& tracks
     for (const Tracklet& tracklet : tracks.tracklets) {
       if (!tracklet.detections.empty()) records.push_back(RecordOf(tracklet, noise));
     }
-    result = internal::JoinAndFinish(options, noise, tracks.fps, image_width, image_height,
+    result = internal::JoinAndFinish(options, noise, tracks.fps, image_width, image_height, {},
                                      std::move(records), std::move(result.report));
   });
   result.report.timings.total_s = total.Seconds();

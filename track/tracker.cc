@@ -41,6 +41,7 @@ TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::p
   std::exception_ptr decode_error, detect_error;
   TrackerTimings timings;
   Detector detector(options.detect);
+  CameraMotion camera(options.camera);
 
   std::thread decoder([&] {
     try {
@@ -69,8 +70,10 @@ TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::p
       int number = 0;
       const auto detect = [&](const GrayImage& image) {
         ++number;
-        return blob_frames.Push(
-            Timed(&timings.detect_s, [&] { return detector.Detect(number, image); }));
+        BlobFrame found = Timed(&timings.detect_s, [&] { return detector.Detect(number, image); });
+        found.world_from_image =
+            Timed(&timings.camera_s, [&] { return camera.Next(image, found); });
+        return blob_frames.Push(std::move(found));
       };
       bool wanted = true;
       for (GrayImage& image : first) {

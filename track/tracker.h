@@ -20,7 +20,10 @@
 #include "simulate/core/progress.h"
 #include "track/associate/flock_tracker.h"
 #include "track/associate/stitch.h"
+#include "track/detect/camera_motion.h"
 #include "track/detect/detector.h"
+#include "track/separability.h"
+#include "track/suspicion.h"
 
 namespace flocklift {
 
@@ -28,8 +31,10 @@ struct TrackerOptions {
   DetectorOptions detect = {};
   AssociationOptions associate = {};
   StitchOptions stitch = {};
+  CameraMotionOptions camera = {};
   int min_length = 5;       // a track with fewer sightings is dropped
   double min_travel = 0.7;  // a long track that stays within so many of its sizes stands still
+  bool decline = true;      // give no identities to animals that cannot be told apart
 };
 
 template <typename Visitor>
@@ -37,6 +42,9 @@ void Describe(Visitor& visit, TrackerOptions& o) {
   Describe(visit, o.detect);
   Describe(visit, o.associate);
   Describe(visit, o.stitch);
+  Describe(visit, o.camera);
+  visit("decline", o.decline, {}, "",
+        "give no identities where the animals cannot be told apart: density and flow instead");
   visit("min-length", o.min_length, {.low = 1, .high = 100000}, "frames",
         "tracks with fewer sightings are dropped");
   visit("min-travel", o.min_travel, {.low = 0, .high = 1000}, "sizes",
@@ -45,22 +53,25 @@ void Describe(Visitor& visit, TrackerOptions& o) {
 
 // Wall time of each part; parts overlap, so they need not add up.
 struct TrackerTimings {
-  double decode_s = 0, detect_s = 0, associate_s = 0, finish_s = 0, total_s = 0;
+  double decode_s = 0, detect_s = 0, camera_s = 0, associate_s = 0, finish_s = 0, total_s = 0;
 };
 
 struct TrackerReport {
   std::int64_t frames = 0;
-  std::int64_t detections = 0;       // blobs
-  std::int64_t rows = 0;             // of all tracks
-  std::int64_t shared_rows = 0;      // of these, from blobs that held several animals
-  std::int64_t filled_rows = 0;      // of these, interpolated
-  std::int64_t joins = 0;            // tracks stitched to one before
-  std::int64_t exchanges = 0;        // of tracks after a shared blob
-  std::int64_t still_tracks = 0;     // dropped: they did not move
-  MotionNoise noise;                 // as learned
-  double usual_length_px = 0;        // 4 sd of an animal's major axis
-  double usual_contrast = 0;         // [grey levels]
-  bool dark = true, bright = false;  // the sign of the animals' contrast
+  std::int64_t detections = 0;        // blobs
+  std::int64_t rows = 0;              // of all tracks
+  std::int64_t shared_rows = 0;       // of these, from blobs that held several animals
+  std::int64_t filled_rows = 0;       // of these, interpolated
+  std::int64_t joins = 0;             // tracks stitched to one before
+  std::int64_t exchanges = 0;         // of tracks after a shared blob
+  std::int64_t still_tracks = 0;      // dropped: they did not move
+  Separability separability;          // of the first seconds; not enough: there are no tracks
+  bool camera_moves = false;          // and was followed
+  std::vector<Suspicion> suspicions;  // the likeliest mistake first
+  MotionNoise noise;                  // as learned
+  double usual_length_px = 0;         // 4 sd of an animal's major axis
+  double usual_contrast = 0;          // [grey levels]
+  bool dark = true, bright = false;   // the sign of the animals' contrast
   TrackerTimings timings;
   std::vector<std::string> warnings;
 };

@@ -87,8 +87,8 @@ TEST(CorrectTest, DeleteAllOrSome) {
 }
 
 TEST(CorrectTest, PinMovesOrAddsARow) {
-  Tracks tracks = Corrected("pin 1 10 77 88\n");
-  EXPECT_EQ(At(tracks, 1, 10)->box.Center(), (Vec2d{77, 88}));
+  Tracks tracks = Corrected("pin 1 10 95 92\n");
+  EXPECT_EQ(At(tracks, 1, 10)->box.Center(), (Vec2d{95, 92}));
   EXPECT_EQ(At(tracks, 1, 10)->box.width, 8);
   EXPECT_EQ(At(tracks, 1, 11)->box.Center().x, 110);
   tracks = Corrected("pin 1 24 240 140\n");

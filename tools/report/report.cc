@@ -46,6 +46,7 @@ std::string MakeReport(RunFolder run) {
   AddSummarySection(data, &page);
   AddWarnings(data, &page);
   AddPictureSection(data, &page, &missing);
+  AddSuspicionSection(data, &page, &missing);
   AddSpaceSection(data, &page, &missing);
   AddDepthSection(data, &page, &missing);
   AddFlockSection(data, &page, &missing);

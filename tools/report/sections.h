@@ -32,6 +32,7 @@ using Missing = std::vector<std::string>;
 void AddSummarySection(const ReportData& data, Page* page);
 void AddWarnings(const ReportData& data, Page* page);
 void AddPictureSection(const ReportData& data, Page* page, Missing* missing);
+void AddSuspicionSection(const ReportData& data, Page* page, Missing* missing);
 void AddSpaceSection(const ReportData& data, Page* page, Missing* missing);
 void AddDepthSection(const ReportData& data, Page* page, Missing* missing);
 void AddFlockSection(const ReportData& data, Page* page, Missing* missing);

@@ -278,10 +278,13 @@ void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observa
   for (const int j : taken) {
     if (j >= 0) used[observations[j].blob] = 1;
   }
+  const bool is_moved = !blobs.world_from_image.IsIdentity();
+  const Similarity image_from_world = blobs.world_from_image.Inverse();
   std::size_t kept = 0;
   for (Animal& animal : animals_) {
     if (!animal.confirmed && animal.hits >= options_.confirm_hits) animal.confirmed = true;
-    const Vec2d p = animal.motion.state().position;
+    const Vec2d p = is_moved ? image_from_world * animal.motion.state().position
+                             : animal.motion.state().position;
     const bool outside = p.x < 0 || p.y < 0 || p.x > width_ - 1 || p.y > height_ - 1;
     const bool over =
         animal.confirmed

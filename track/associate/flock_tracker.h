@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "simulate/core/options.h"
+#include "track/associate/doubt.h"
 #include "track/associate/share_blob.h"
 #include "track/detect/blob.h"
 #include "track/predict/motion_filter.h"
@@ -61,6 +62,7 @@ struct TrackRecord {
   double size = 1;  // usual, square root of area [px]
   double mass = 0;  // usual
   std::vector<TrackPoint> sightings;
+  std::vector<Doubt> doubts;
   Id given_id = kNoId;  // of a track that somebody else made: its rows stay as they are
 };
 

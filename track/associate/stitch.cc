@@ -10,6 +10,7 @@
 
 #include "track/associate/assignment.h"
 #include "track/associate/join_cost.h"
+#include "track/associate/successors.h"
 
 namespace flocklift {
 namespace {
@@ -39,6 +40,73 @@ double ChiSquare4Quantile(double probability) {
   return low;
 }
 
+double MassCostOf(const TrackRecord& a, const TrackRecord& b) {
+  const double mass = std::log(a.mass / b.mass) / kMassSd;
+  return std::min(0.5 * mass * mass, 8.0);
+}
+
+// All joins inside the gate.
+std::vector<Candidate> CandidatesOf(const StitchOptions& options, const MotionNoise& noise,
+                                    double gate, const std::vector<TrackRecord>& tracks,
+                                    const std::vector<Ends>& ends) {
+  std::vector<TrackEnd> beginnings;
+  double largest = 0, most_pp = 0, most_vv = 0;
+  for (std::size_t k = 0; k < tracks.size(); ++k) {
+    beginnings.push_back({tracks[k].sightings.front().frame, ends[k].first});
+    largest = std::max(largest, tracks[k].size);
+    most_pp = std::max(most_pp, ends[k].first.pp);
+    most_vv = std::max(most_vv, ends[k].first.vv);
+  }
+  const Successors successors(beginnings, noise.speed_sd);
+  std::vector<Candidate> candidates;
+  for (std::size_t a = 0; a < tracks.size(); ++a) {
+    const TrackEnd end{tracks[a].sightings.back().frame, ends[a].last};
+    // Neither position nor velocity can be farther than the gate on both together.
+    const double most_q = noise.ProcessVariance(0.5 * (tracks[a].size + largest));
+    const auto ahead = [&](int gap) {
+      MotionState state = end.state;
+      Predict(&state, most_q, gap);
+      return state;
+    };
+    const auto reach = [&](int gap) { return std::sqrt(gate * (ahead(gap).pp + most_pp)); };
+    const double speed_reach = std::sqrt(gate * (ahead(options.max_gap).vv + most_vv));
+    for (const int b : successors.Find(end, options.max_gap, reach, speed_reach)) {
+      const int gap = beginnings[b].frame - end.frame;
+      if (gap < 1 || gap > options.max_gap) continue;
+      const double q = noise.ProcessVariance(0.5 * (tracks[a].size + tracks[b].size));
+      const JoinCost join = CostOfJoin(end.state, ends[b].first, q, gap);
+      if (!(join.squared_distance <= gate)) continue;
+      candidates.push_back({static_cast<int>(a), b, join.cost + MassCostOf(tracks[a], tracks[b])});
+    }
+  }
+  return candidates;
+}
+
+// Of each row that was given a column: the share that its rivals, those of the column and that of
+// no join at all have in the likelihood.
+std::vector<double> ChancesOfError(const std::vector<Candidate>& candidates,
+                                   const std::vector<int>& taken, double alone_cost) {
+  std::vector<double> own(taken.size(), 0), rivals(taken.size(), 0);
+  std::vector<int> row_of(taken.size(), -1);
+  for (std::size_t a = 0; a < taken.size(); ++a) {
+    if (taken[a] >= 0) row_of[taken[a]] = static_cast<int>(a);
+  }
+  for (const Candidate& c : candidates) {
+    if (taken[c.row] == c.column) own[c.row] = c.cost;
+  }
+  for (const Candidate& c : candidates) {
+    if (taken[c.row] == c.column) continue;
+    for (const int a : {c.row, row_of[c.column]}) {
+      if (a >= 0 && taken[a] >= 0) rivals[a] += std::exp(std::min(own[a] - c.cost, 50.0));
+    }
+  }
+  for (std::size_t a = 0; a < taken.size(); ++a) {
+    rivals[a] += std::exp(std::min(own[a] - alone_cost, 50.0));
+    rivals[a] /= 1 + rivals[a];
+  }
+  return rivals;
+}
+
 }  // namespace
 
 std::vector<TrackRecord> Stitch(const StitchOptions& options, const MotionNoise& noise,
@@ -65,25 +133,11 @@ std::vector<TrackRecord> Stitch(const StitchOptions& options, const MotionNoise&
   std::stable_sort(by_first.begin(), by_first.end(), [&tracks](int a, int b) {
     return tracks[a].sightings.front().frame < tracks[b].sightings.front().frame;
   });
-  std::vector<int> first_frames;
-  for (const int k : by_first) first_frames.push_back(tracks[k].sightings.front().frame);
-
-  std::vector<Candidate> candidates;
-  for (int a = 0; a < count; ++a) {
-    const int end = tracks[a].sightings.back().frame;
-    const auto from = std::upper_bound(first_frames.begin(), first_frames.end(), end);
-    for (auto it = from; it != first_frames.end() && *it - end <= options.max_gap; ++it) {
-      const int b = by_first[static_cast<std::size_t>(it - first_frames.begin())];
-      const double q = noise.ProcessVariance(0.5 * (tracks[a].size + tracks[b].size));
-      const JoinCost join = CostOfJoin(ends[a].last, ends[b].first, q, *it - end);
-      if (!(join.squared_distance <= gate)) continue;
-      const double mass = std::log(tracks[a].mass / tracks[b].mass) / kMassSd;
-      candidates.push_back({a, b, join.cost + std::min(0.5 * mass * mass, 8.0)});
-    }
-  }
+  const std::vector<Candidate> candidates = CandidatesOf(options, noise, gate, tracks, ends);
   const std::vector<int> next =
       Assign(count, candidates, std::vector<double>(static_cast<std::size_t>(count), alone_cost));
 
+  const std::vector<double> chances = ChancesOfError(candidates, next, alone_cost);
   std::vector<char> continued(count, 0);
   for (const int b : next) {
     if (b >= 0) continued[b] = 1;
@@ -92,7 +146,11 @@ std::vector<TrackRecord> Stitch(const StitchOptions& options, const MotionNoise&
   for (const int k : by_first) {
     if (continued[k]) continue;
     TrackRecord track = std::move(tracks[k]);
-    for (int b = next[k]; b >= 0; b = next[b]) {
+    for (int a = k, b = next[k]; b >= 0; a = b, b = next[b]) {
+      const TrackPoint& before = track.sightings.back();
+      track.doubts.push_back({DoubtKind::kJoin, before.frame, tracks[b].sightings.front().frame,
+                              before.position, chances[a]});
+      track.doubts.insert(track.doubts.end(), tracks[b].doubts.begin(), tracks[b].doubts.end());
       const double a_count = static_cast<double>(track.sightings.size());
       const double b_count = static_cast<double>(tracks[b].sightings.size());
       const double w = b_count / (a_count + b_count);

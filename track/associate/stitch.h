@@ -4,7 +4,9 @@
 // Joins tracks across gaps: one that ends and one that begins soon after where the first would be,
 // moving as it moved. All joins are chosen together, at the least total cost: that of each join
 // (join_cost.h) against that of an end and an unrelated beginning, -ln(density of beginnings per
-// px^2, frame and (px/frame)^2).
+// px^2, frame and (px/frame)^2). Each track follows at most one and is followed by at most one, so
+// this is min-cost flow with unit capacities, solved as an assignment of ends to beginnings; what
+// may follow what comes from successors.h.
 
 #ifndef FLOCKLIFT_TRACK_ASSOCIATE_STITCH_H_
 #define FLOCKLIFT_TRACK_ASSOCIATE_STITCH_H_

@@ -14,13 +14,15 @@
 namespace flocklift {
 namespace {
 
-constexpr int kLongest = 8;          // frames: after a longer one, the past tells little
+constexpr int kLongest = 8;          // frames: after a longer one, the past tells little,
+                                     // and what was decided on the way stands
 constexpr int kBetween = 4;          // frames apart within which shared frames are one encounter
 constexpr std::size_t kLook = 12;    // sightings before and after
 constexpr std::size_t kLeast = 4;    // of them
 constexpr double kMargin = 3;        // by how much the exchange must be likelier (-ln)
 constexpr double kLogAreaSd = 0.25;  // of the mean over some sightings
 constexpr double kMostAreaCost = 4;
+constexpr double kSeenApartFactor = 0.2;  // on the chance of a swap where both could be told
 
 // Two tracks in one blob, frames first .. last.
 struct Encounter {
@@ -107,6 +109,13 @@ void ExchangeTails(int frame, TrackRecord* a, TrackRecord* b) {
   const std::vector<TrackPoint> tail_a = cut(&a->sightings), tail_b = cut(&b->sightings);
   a->sightings.insert(a->sightings.end(), tail_b.begin(), tail_b.end());
   b->sightings.insert(b->sightings.end(), tail_a.begin(), tail_a.end());
+  // A doubt is about the frames that it names.
+  const auto is_later = [frame](const Doubt& d) { return d.first_frame >= frame; };
+  std::vector<Doubt> doubts_a, doubts_b;
+  std::swap(doubts_a, a->doubts);
+  std::swap(doubts_b, b->doubts);
+  for (const Doubt& d : doubts_a) (is_later(d) ? b : a)->doubts.push_back(d);
+  for (const Doubt& d : doubts_b) (is_later(d) ? a : b)->doubts.push_back(d);
 }
 
 // The frame of the encounter in which the two are nearest to each other.
@@ -127,6 +136,27 @@ int ClosestFrame(const TrackRecord& a, const TrackRecord& b, const Encounter& e)
   return closest;
 }
 
+bool WasHidden(const TrackRecord& track, const Encounter& e) {
+  return std::any_of(track.sightings.begin(), track.sightings.end(), [&e](const TrackPoint& p) {
+    return p.hidden && p.frame >= e.first && p.frame <= e.last;
+  });
+}
+
+// Both tracks are in doubt when the other way round is nearly as likely.
+void NoteDoubt(const Encounter& e, const Vec2d& position, double chance, TrackRecord* a,
+               TrackRecord* b) {
+  if (!WasHidden(*a, e) && !WasHidden(*b, e)) chance *= kSeenApartFactor;
+  if (chance < kLeastDoubt) return;
+  for (TrackRecord* track : {a, b}) {
+    track->doubts.push_back({DoubtKind::kSwap, e.first, e.last, position, chance});
+  }
+}
+
+// That the other way round would have been right.
+double ChanceOf(double cost_taken, double cost_other) {
+  return 1 / (1 + std::exp(std::clamp(cost_other - cost_taken, -50.0, 50.0)));
+}
+
 }  // namespace
 
 int Uncross(const MotionNoise& noise, std::vector<TrackRecord>* tracks) {
@@ -134,15 +164,19 @@ int Uncross(const MotionNoise& noise, std::vector<TrackRecord>* tracks) {
   int exchanges = 0;
   for (std::size_t k = 0; k < encounters.size(); ++k) {
     const Encounter e = encounters[k];
-    if (e.last - e.first >= kLongest) continue;
     TrackRecord &a = (*tracks)[e.a], &b = (*tracks)[e.b];
     const Side x = Look(a, e, noise), y = Look(b, e, noise);
     if (!x.IsEnough() || !y.IsEnough()) continue;
     const double q = noise.ProcessVariance(0.5 * (a.size + b.size));
     const double kept = Cost(x, x, q) + Cost(y, y, q);
     const double exchanged = Cost(x, y, q) + Cost(y, x, q);
-    if (exchanged + kMargin >= kept) continue;
+    const Vec2d position = x.end.position;
+    if (e.last - e.first >= kLongest || exchanged + kMargin >= kept) {
+      NoteDoubt(e, position, ChanceOf(kept, exchanged), &a, &b);
+      continue;
+    }
     ExchangeTails(ClosestFrame(a, b, e), &a, &b);
+    NoteDoubt(e, position, ChanceOf(exchanged, kept), &a, &b);
     ++exchanges;
     for (std::size_t later = k + 1; later < encounters.size(); ++later) {
       for (int* who : {&encounters[later].a, &encounters[later].b}) {

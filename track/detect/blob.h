@@ -14,6 +14,7 @@
 
 #include "simulate/core/observations.h"
 #include "simulate/core/vec3.h"
+#include "track/detect/similarity.h"
 
 namespace flocklift {
 
@@ -49,6 +50,8 @@ struct BlobFrame {
   int frame = 0;
   std::vector<Blob> blobs;
   std::vector<BlobPixel> pixels;
+  int specks = 0;               // that stood out but had too few pixels for a blob
+  Similarity world_from_image;  // of the camera's motion (camera_motion.h)
 };
 
 // 4 standard deviations along the axes.

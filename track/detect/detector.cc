@@ -4,12 +4,16 @@
 #include "track/detect/detector.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "simulate/core/check.h"
+#include "simulate/core/text.h"
 #include "track/detect/background.h"
 #include "track/detect/components.h"
 
@@ -86,6 +90,32 @@ Blob Measure(const BlobFrame& found, std::size_t first) {
   return blob;
 }
 
+// "left,top,width,height;...".
+std::vector<Box> ParseBoxes(const std::string& text) {
+  std::vector<Box> boxes;
+  std::string_view rest = text;
+  while (!Trim(rest).empty()) {
+    const std::size_t end = rest.find(';');
+    std::string_view one = rest.substr(0, end);
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    std::array<double, 4> values{};
+    std::size_t count = 0;
+    bool is_good = true;
+    while (is_good) {
+      const std::size_t comma = one.find(',');
+      const std::optional<double> value = ParseReal(Trim(one.substr(0, comma)));
+      is_good = value && count < values.size();
+      if (is_good) values[count++] = *value;
+      if (comma == std::string_view::npos) break;
+      one.remove_prefix(comma + 1);
+    }
+    Check(is_good && count == values.size() && values[2] > 0 && values[3] > 0,
+          "option ignore is " + text + ", allowed are left,top,width,height;...");
+    boxes.push_back({values[0], values[1], values[2], values[3]});
+  }
+  return boxes;
+}
+
 // Value at which `share` of the mass is reached.
 template <typename Get>
 double MassQuantile(std::vector<std::pair<double, double>>* scratch, double share, const Get& get) {
@@ -110,6 +140,13 @@ Detector::Detector(const DetectorOptions& options) : options_(options) {
         "option polarity is " + p + ", allowed are dark, bright, both and auto");
   dark_ = p != "bright";
   bright_ = p == "bright" || p == "both";
+  ignored_ = ParseBoxes(options.ignore);
+}
+
+bool Detector::IsIgnored(const Vec2d& p) const {
+  return std::any_of(ignored_.begin(), ignored_.end(), [&p](const Box& b) {
+    return p.x >= b.left && p.y >= b.top && p.x <= b.left + b.width && p.y <= b.top + b.height;
+  });
 }
 
 double Detector::Window(int image_height) const {
@@ -145,6 +182,21 @@ BlobFrame Detector::Detect(int frame, const GrayImage& image) {
   return found;
 }
 
+// Whether a patch's strongest pixel passes the threshold.
+bool Detector::StandsOut(const Component& c, const GrayImage& smooth,
+                         const LocalBackground& background, double sign,
+                         double least_contrast) const {
+  for (const PixelRun& run : c.runs) {
+    for (int u = run.first; u <= run.last; ++u) {
+      const double contrast = sign * (background.LevelAt(u, run.v) - smooth.Row(run.v)[u]);
+      if (contrast >= std::max(options_.threshold * background.NoiseAt(u, run.v), least_contrast)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
 void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
   Fit(image.width, image.height, &smooth_);
   const GrayImage& smooth = smooth_;
@@ -166,7 +218,10 @@ void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
 
   std::vector<float> contrast, raw;
   for (const Component& c : components) {
-    if (c.area < options_.min_area) continue;
+    if (c.area < options_.min_area) {
+      found->specks += StandsOut(c, smooth, background, sign, least_contrast) ? 1 : 0;
+      continue;
+    }
     const int width = c.right - c.left + 1, height = c.bottom - c.top + 1;
     if (width > image.width / 2 && height > image.height / 2) continue;
     contrast.assign(static_cast<std::size_t>(width) * height, 0);
@@ -207,7 +262,8 @@ void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
       blob.edges.top = box.top < 0;
       blob.edges.right = box.left + box.width > image.width - 1;
       blob.edges.bottom = box.top + box.height > image.height - 1;
-      if (part_peak < high || static_cast<int>(blob.pixel_count) < options_.min_area ||
+      if (IsIgnored(blob.center) || part_peak < high ||
+          static_cast<int>(blob.pixel_count) < options_.min_area ||
           std::max(blob.box.width, blob.box.height) > kLongestOverWindow * window) {
         found->pixels.resize(first);
         continue;

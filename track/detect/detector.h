@@ -16,9 +16,12 @@
 #include <deque>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "simulate/core/options.h"
+#include "track/detect/background.h"
 #include "track/detect/blob.h"
+#include "track/detect/components.h"
 #include "track/detect/watershed.h"
 #include "track/gray_image.h"
 
@@ -30,6 +33,7 @@ struct DetectorOptions {
   double relative_contrast = 0.2;  // peak contrast over the usual peak contrast
   double window = 0;               // side of the local mean [px]; 0: learned, 3 lengths
   int min_area = 3;                // [px]
+  std::string ignore = {};         // boxes in which nothing is an animal
 };
 
 template <typename Visitor>
@@ -42,6 +46,8 @@ void Describe(Visitor& visit, DetectorOptions& o) {
   visit("window", o.window, {.low = 0, .high = 2000}, "px",
         "window of the local background; 0: three times the usual length of an animal");
   visit("min-area", o.min_area, {.low = 1, .high = 100000}, "px", "least area of an animal");
+  visit("ignore", o.ignore, {}, "px",
+        "regions without animals, left,top,width,height;... (a clock, a tree in the wind)");
 }
 
 class Detector {
@@ -64,11 +70,15 @@ class Detector {
     double mass = 0, peak = 0, length = 0;
   };
 
+  bool IsIgnored(const Vec2d& p) const;
+  bool StandsOut(const Component& component, const GrayImage& smooth,
+                 const LocalBackground& background, double sign, double least_contrast) const;
   void FindBlobs(const GrayImage& image, bool dark, BlobFrame* found);
   void Remember(const BlobFrame& found);
   double Window(int image_height) const;
 
   DetectorOptions options_;
+  std::vector<Box> ignored_;
   bool dark_ = true, bright_ = false;
   double usual_length_ = 0, usual_contrast_ = 0;  // 0: not known yet
   std::deque<Trace> recent_;

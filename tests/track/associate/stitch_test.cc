@@ -13,7 +13,7 @@ namespace {
 const MotionNoise kNoise{.acceleration = 0.02, .measurement = 0.05, .speed_sd = 5};
 
 TrackRecord Straight(const Vec2d& start, const Vec2d& velocity, int first, int last) {
-  TrackRecord track{.size = 5, .mass = 1000, .sightings = {}};
+  TrackRecord track{.size = 5, .mass = 1000, .sightings = {}, .doubts = {}};
   for (int frame = first; frame <= last; ++frame) {
     Rng rng(3, static_cast<std::uint64_t>(frame));
     track.sightings.push_back({.frame = frame,

@@ -19,7 +19,7 @@ const MotionNoise kNoise{.acceleration = 0.02, .measurement = 0.05, .speed_sd = 
 // The track that follows `before` up to frame 20 and `after` from frame 21 on; frames 18 to 22 are
 // of one blob.
 TrackRecord Track(const std::function<Vec2d(int)>& before, const std::function<Vec2d(int)>& after) {
-  TrackRecord track{.size = 5, .mass = 1000, .sightings = {}};
+  TrackRecord track{.size = 5, .mass = 1000, .sightings = {}, .doubts = {}};
   for (int frame = 1; frame <= 40; ++frame) {
     Rng rng(3, static_cast<std::uint64_t>(frame));
     Vec2d p = frame <= 20 ? before(frame) : after(frame);
