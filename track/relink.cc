@@ -16,6 +16,7 @@ namespace {
 constexpr double kFilledConfidence = 0.4;
 constexpr double kLeastReach = 2;     // [px]: a click is no better
 constexpr double kReachOverStep = 3;  // an animal may move so many times faster than it does
+constexpr double kBreakCost = 9;      // of 3 sds
 constexpr int kMotionFrames = 4;      // rows before a frame that tell the motion there
 
 double SizeOf(const Detection& d) { return std::max(std::hypot(d.box.width, d.box.height), 1.0); }
@@ -28,11 +29,12 @@ bool Holds(const Detection& d, const Vec2d& p) {
 }
 
 // Squared distance, in sizes and frames, of `to`'s first row from frame `f` on from where `from`'s
-// motion before `f` leads. Nothing to compare costs nothing.
+// motion before `f` leads. A path that only begins costs nothing, one that breaks off does.
 double CostOfTurn(const TrackRows& from, const TrackRows& to, int f) {
   const auto next = to.lower_bound(f);
   auto last = from.lower_bound(f);
-  if (next == to.end() || last == from.begin()) return 0;
+  if (last == from.begin()) return 0;
+  if (next == to.end()) return kBreakCost;
   --last;
   auto first = last;
   for (int k = 1; k < kMotionFrames && first != from.begin(); ++k) --first;
