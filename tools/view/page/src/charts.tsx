@@ -65,7 +65,7 @@ export function Charts({ run }: { run: Run }) {
             x: { time: false, range: () => [run.clock.first, run.clock.end] },
             y: curve === 'polarisation' ? { range: [-0.02, 1.05] } : {},
           },
-          padding: [fontSize * 2.1, 6, 0, 0],
+          padding: [fontSize * 2.1, fontSize, 0, 0],
           axes: [
             { ...axis, size: fontSize * 1.9, space: 60 },
             { ...axis, size: fontSize * 3.4, space: 28 },
@@ -122,8 +122,10 @@ export function Charts({ run }: { run: Run }) {
           askedFlock = nowFlock;
           flock = await run.source.series(state.table, -1);
         }
-        one = state.selected < 0 ? noSeries() : await run.source.series(state.table, state.selected);
-        if (asked === now) fill();
+        const chosen =
+          state.selected < 0 ? noSeries() : await run.source.series(state.table, state.selected);
+        if (asked === now) one = chosen;
+        fill();
       } catch (error) {
         run.store.fail(error);
       }

@@ -26,6 +26,7 @@ export class FootageView {
   private zoom = 1;
   private panX = 0;
   private panY = 0;
+  private reveal = false; // the selected animal, where it is out of sight
   strokes: Drawing[] = []; // of the sketch, and the one being drawn
   onPoint: ((x: number, y: number, animal: number, second: boolean) => void) | null = null;
   onStroke: ((points: [number, number][]) => void) | null = null;
@@ -36,6 +37,9 @@ export class FootageView {
   ) {
     new ResizeObserver(() => run.clock.redraw()).observe(canvas);
     run.clock.onDraw(() => this.draw());
+    run.store.watch((state, before) => {
+      if (state.selected !== before.selected) this.reveal = this.zoom > 1;
+    });
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     canvas.addEventListener('pointerdown', (event) => this.down(event));
     canvas.addEventListener('pointermove', (event) => this.hover(event));
@@ -137,9 +141,10 @@ export class FootageView {
     g.setTransform(1, 0, 0, 1, 0, 0);
     g.fillStyle = ground(state.dark).back;
     g.fillRect(0, 0, width, height);
+    if (!this.shown) return;
+    if (this.reveal) this.centreOn(state.selected);
     const t = this.transform();
     const [w, h] = this.size;
-    if (!this.shown) return;
     g.setTransform(t.scale, 0, 0, t.scale, t.x, t.y);
     g.imageSmoothingEnabled = t.scale < 3;
     if (this.shown.bitmap) {
@@ -154,6 +159,21 @@ export class FootageView {
     this.drawBoxes(g, this.shown.frame, t.scale);
     this.drawStrokes(g, t.scale);
     canvas.dataset.frame = String(this.shown.frame);
+  }
+
+  private centreOn(animal: number): void {
+    const rows = this.run.boxes.at(this.frame);
+    const r = rows ? rowOf(rows, this.frame, animal) : -1;
+    if (!rows || r < 0 || this.frame !== this.run.store.get().frame) return;
+    this.reveal = false;
+    const [x, y] = centreOfBox(rows, r);
+    const t = this.transform();
+    const { width, height } = this.canvas;
+    const u = t.x + x * t.scale;
+    const v = t.y + y * t.scale;
+    if (u > 0 && v > 0 && u < width && v < height) return;
+    this.panX += width / 2 - u;
+    this.panY += height / 2 - v;
   }
 
   private drawBoxes(g: CanvasRenderingContext2D, frame: number, scale: number): void {

@@ -81,7 +81,7 @@ export function LiveCharts({ series, store }: { series: LiveSeries; store: Store
         ...size(), legend: { show: false },
         cursor: { show: false },
         scales: { x: { time: false }, y: k === 0 ? { range: [-0.02, 1.05] } : {} },
-        padding: [fontSize * 2.1, 6, 0, 0],
+        padding: [fontSize * 2.1, fontSize, 0, 0],
         axes: [{ ...axis, size: fontSize * 1.9, space: 60 }, { ...axis, size: fontSize * 3.4, space: 28 }],
         series: [{}, { stroke: colourOf(0, dark), width: 1.4, points: { show: false } }],
       }, [[], []], cell);

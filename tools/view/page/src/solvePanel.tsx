@@ -49,7 +49,8 @@ function build(run: Run, container: HTMLElement, values: SolveValues, changed: (
   });
   const known = gui.addFolder('What you know');
   for (const [name, words, help] of KNOWN) {
-    const held = { value: rounded(String(values[name] ?? '')) };
+    values[name] = rounded(String(values[name] ?? ''));
+    const held = { value: values[name] as string };
     const controller = known.add(held, 'value').name(words);
     controller.onFinishChange((value: string) => {
       values[name] = value.trim();
