@@ -158,6 +158,12 @@ export class FootageView {
     this.drawTrails(g, this.shown.frame, t.scale);
     this.drawBoxes(g, this.shown.frame, t.scale);
     this.drawStrokes(g, t.scale);
+    if (this.shown.frame !== this.run.source.pictured(state.frame)) {
+      g.setTransform(1, 0, 0, 1, 0, 0);
+      g.font = `${12 * ratio}px system-ui, sans-serif`;
+      g.fillStyle = ground(state.dark).ink;
+      g.fillText(`frame ${this.shown.frame}; ${state.frame} is on its way`, 10 * ratio, 20 * ratio);
+    }
     canvas.dataset.frame = String(this.shown.frame);
   }
 
