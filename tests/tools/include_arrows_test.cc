@@ -53,7 +53,7 @@ const std::vector<Library> kLibraries = {
     {"SIMD", std::regex("(xsimd/.*|.*intrin\\.h)"), {"simulate/flock"}},
     {"HDF5", std::regex("(hdf5|H5.*)\\.h"), {"simulate/core"}},
     {"assimp", std::regex("assimp/.*"), {"simulate/shapes"}},
-    {"FLANN", std::regex("flann/.*"), {"simulate/shapes", "simulate/flock"}},
+    {"FLANN", std::regex("flann/.*"), {"simulate/shapes", "simulate/flock", "track"}},
     {"TetGen", std::regex("tetgen\\.h"), {"simulate/shapes"}},
     {"CLI11", std::regex("CLI/.*"), {"tools"}},
     {"FFmpeg", std::regex("lib(av|sw).*/.*"), {"simulate/render", "track", "tools/view"}},

@@ -22,6 +22,15 @@ namespace {
 
 using Kind = Correction::Kind;
 
+bool SameRows(const Tracklet& a, const Tracklet& b) {
+  return std::equal(a.detections.begin(), a.detections.end(), b.detections.begin(),
+                    b.detections.end(), [](const Detection& p, const Detection& q) {
+                      return p.frame == q.frame && p.confidence == q.confidence &&
+                             p.box.left == q.box.left && p.box.top == q.box.top &&
+                             p.box.width == q.box.width && p.box.height == q.box.height;
+                    });
+}
+
 bool HasRowIn(const Tracklet& tracklet, int frame) {
   const auto& d = tracklet.detections;
   const auto at = std::lower_bound(d.begin(), d.end(), frame,
@@ -84,7 +93,7 @@ std::string LineOf(const Correction& c) {
 }
 
 TrackEditor::TrackEditor(const Tracks& tracks, int frame_count, CorrectionsFile file)
-    : fps_(tracks.fps), frame_count_(frame_count), file_(std::move(file)) {
+    : first_(tracks), fps_(tracks.fps), frame_count_(frame_count), file_(std::move(file)) {
   for (const Tracklet& tracklet : tracks.tracklets) {
     tracks_.emplace(tracklet.id, tracklet);
     next_id_ = std::max(next_id_, tracklet.id + 1);
@@ -93,6 +102,12 @@ TrackEditor::TrackEditor(const Tracks& tracks, int frame_count, CorrectionsFile 
 }
 
 TrackEditor::Step TrackEditor::Change(const Correction& correction) {
+  // A pin may take rows of any track, and what follows must keep to it.
+  const bool has_pins = correction.kind == Kind::kPin ||
+                        std::any_of(done_.begin(), done_.end(), [](const Step& step) {
+                          return step.correction.kind == Kind::kPin;
+                        });
+  if (has_pins) return ChangeFromTheStart(correction);
   Step step{.correction = correction, .before = {}, .after = {}, .next_id_before = next_id_};
   Tracks named;
   named.fps = fps_;
@@ -124,6 +139,30 @@ TrackEditor::Step TrackEditor::Change(const Correction& correction) {
     step.after.push_back(tracklet.id);
     tracks_[tracklet.id] = std::move(tracklet);
   }
+  next_id_ = next_id;
+  touched_ = step.after;
+  for (const auto& [id, tracklet] : step.before) touched_.push_back(id);
+  return step;
+}
+
+TrackEditor::Step TrackEditor::ChangeFromTheStart(const Correction& correction) {
+  Step step{.correction = correction, .before = {}, .after = {}, .next_id_before = next_id_};
+  std::vector<Correction> in_force;
+  for (const Step& done : done_) in_force.push_back(done.correction);
+  in_force.push_back(correction);
+  Tracks now = first_;
+  Id next_id = 1;
+  ApplyCorrections(in_force, file_.path.string(), frame_count_, &now, &next_id);
+  std::map<Id, Tracklet> left = std::move(tracks_);
+  tracks_.clear();
+  for (Tracklet& tracklet : now.tracklets) {
+    const auto found = left.find(tracklet.id);
+    const bool is_same = found != left.end() && SameRows(found->second, tracklet);
+    if (is_same) left.erase(found);
+    if (!is_same) step.after.push_back(tracklet.id);
+    tracks_[tracklet.id] = std::move(tracklet);
+  }
+  step.before = std::move(left);
   next_id_ = next_id;
   touched_ = step.after;
   for (const auto& [id, tracklet] : step.before) touched_.push_back(id);

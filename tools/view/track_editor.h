@@ -62,10 +62,12 @@ class TrackEditor {
     Id next_id_before = 1;
   };
   Step Change(const Correction& correction);
+  Step ChangeFromTheStart(const Correction& correction);
   void Revert(const Step& step);
   void WriteFile(const std::vector<const Correction*>& corrections) const;
   std::vector<const Correction*> InForce() const;
 
+  const Tracks first_;  // as they were before the corrections in force
   std::optional<double> fps_;
   int frame_count_;
   CorrectionsFile file_;

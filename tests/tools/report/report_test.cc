@@ -120,7 +120,9 @@ class ReportTest : public testing::Test {
         R"({"command": "track", "version": "1", "inputs": [{"name": ")" +
             (folder_ / "film.mp4").string() +
             R"(", "sha256": "ab"}], "phases": [{"name": "detect", "wall_s": 3, "cpu_s": 4}],
-                      "options": {"gate": 0.5}, "figures": {}, "warnings": []})");
+                      "options": {"gate": 0.5}, "warnings": [],
+                      "figures": {"suspicious_count": 1, "suspicious": [{"kind": "swap", "frame": 7,
+                      "last_frame": 9, "ids": [1, 4], "chance": 0.25, "picture": "7:9:1,4"}]}})");
     WriteTextFile(run_ / "summary.reconstruct.json",
                   R"({"figures": {"method": "batch", "scale_sd": 0.07, "scale_from": "wingspan",
                       "observability": "image speed", "residuals": [{"name": "speed", "rms": 1.5}]},
@@ -164,11 +166,12 @@ TEST_F(ReportTest, ShowsAllThatIsThere) {
   FillFolder();
   const std::string html = Report();
   ExpectWellFormed(html);
-  for (const char* id : {"summary", "picture", "space", "depth", "flock", "truth", "residuals",
-                         "scale", "parameters", "replay", "timings", "provenance"}) {
+  for (const char* id : {"summary", "picture", "suspicious", "space", "depth", "flock", "truth",
+                         "residuals", "scale", "parameters", "replay", "timings", "provenance"}) {
     EXPECT_TRUE(Contains(html, "<section id=\"" + std::string(id) + "\">"));
   }
   EXPECT_FALSE(Contains(html, "<section id=\"missing\">"));
+  EXPECT_TRUE(Contains(html, "7:9:1,4"));
   EXPECT_TRUE(Contains(html, "data:image/jpeg;base64,"));
   EXPECT_FALSE(Contains(html, "<script"));
   EXPECT_FALSE(Contains(html, "http://"));
