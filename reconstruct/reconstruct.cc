@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
+#include "reconstruct/initialize/observability.h"
 #include "reconstruct/initialize/scale_guess.h"
 #include "reconstruct/orientation.h"
 #include "simulate/core/check.h"
@@ -139,6 +141,19 @@ std::string DescribeObservability(const Knowledge& knowledge, const Segments& se
   return text;
 }
 
+// Which solution was kept, and by how much.
+std::string DescribeDynamics(const DynamicsReport& d) {
+  const auto rounded = [](double value) {
+    const long hundredths = std::lround(value * 100);
+    return std::to_string(hundredths / 100) + (hundredths % 100 < 10 ? ".0" : ".") +
+           std::to_string(hundredths % 100);
+  };
+  if (d.windows == 0) return "; forces untested: no track is long enough to hide a part of it";
+  return "; forces kept in " + std::to_string(d.kept) + " of " + std::to_string(d.windows) +
+         " windows (" + std::to_string(d.hidden) + " hidden sightings predicted to " +
+         rounded(d.dynamics_error) + " with forces, " + rounded(d.batch_error) + " without)";
+}
+
 void WarnOfDisagreement(const Knowledge& knowledge, const BatchReport& batch,
                         ReconstructReport* report) {
   if (!knowledge.speed || !knowledge.wingspan || !knowledge.use_size) return;
@@ -155,7 +170,35 @@ void WarnOfDisagreement(const Knowledge& knowledge, const BatchReport& batch,
 }  // namespace
 
 const char* NameOf(ReconstructMethod method) {
-  return method == ReconstructMethod::kBatch ? "batch" : "cobyla";
+  switch (method) {
+    case ReconstructMethod::kBatch:
+      return "batch";
+    case ReconstructMethod::kDynamics:
+      return "dynamics";
+    case ReconstructMethod::kCobyla:
+      return "cobyla";
+    case ReconstructMethod::kLinCeres:
+      return "lin-ceres";
+  }
+  return "";
+}
+
+ReconstructMethod MethodOf(const std::string& name) {
+  for (const ReconstructMethod method :
+       {ReconstructMethod::kBatch, ReconstructMethod::kDynamics, ReconstructMethod::kCobyla,
+        ReconstructMethod::kLinCeres}) {
+    if (name == NameOf(method)) return method;
+  }
+  throw std::invalid_argument("there is no method `" + name + "`");
+}
+
+std::string LookAhead(const ReconstructOptions& options, const Tracks& tracks, const Camera& camera,
+                      double fps) {
+  const Knowledge knowledge = InCameraAxes(options, camera);
+  const Segments segments =
+      MakeSegments({.min_pixel_sd = options.batch.pixel_sd, .use_size = knowledge.use_size}, tracks,
+                   camera, fps);
+  return Describe(LookAhead(segments), knowledge);
 }
 
 ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& tracks,
@@ -164,7 +207,8 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   CheckKnowledge(options.knowledge);
   CheckOptions(options.batch);
   const Knowledge knowledge = InCameraAxes(options, camera);
-  const bool is_batch = options.method == ReconstructMethod::kBatch;
+  const bool is_batch =
+      options.method == ReconstructMethod::kBatch || options.method == ReconstructMethod::kDynamics;
   const Segments segments = MakeSegments({.min_pixel_sd = options.batch.pixel_sd,
                                           .jump = is_batch ? options.batch.jump : 0,
                                           .use_size = knowledge.use_size},
@@ -176,6 +220,7 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   report.cuts = segments.cuts;
   report.pixel_sd = segments.pixel_sd;
   report.scale_from = ScaleSources(knowledge);
+  report.outlook = Describe(LookAhead(segments), knowledge);
   if (segments.unusable > 0) {
     report.warnings.push_back(std::to_string(segments.unusable) +
                               " rows lie where the lens model sees nothing and were left out");
@@ -185,19 +230,35 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
     return result;
   }
   if (!is_batch) {
-    const CobylaResult cobyla = SolveCobyla(CobylaFor(options, knowledge, segments),
-                                            options.cobyla_first_depths, segments, fps, progress);
+    const CobylaResult cobyla =
+        SolveCobyla(CobylaFor(options, knowledge, segments), options.cobyla_first_depths, segments,
+                    fps, progress,
+                    options.method == ReconstructMethod::kCobyla ? LinOptimizer::kCobyla
+                                                                 : LinOptimizer::kCeres);
     report.final_cost = cobyla.report.final_cost;
     report.iterations = cobyla.report.frames;
     report.converged = cobyla.report.exhausted == 0;
+    if (!report.converged) {
+      report.warnings.push_back("in " + std::to_string(cobyla.report.exhausted) + " of " +
+                                std::to_string(cobyla.report.frames) +
+                                " frames the optimiser stopped before it was done");
+    }
     report.observability =
         "relative depth rests on constant speed and on the pull of the flock's middle; the method "
         "knows no error of its depths";
     result.trajectories = Assemble(camera, knowledge, segments, cobyla.paths, fps, false);
     return result;
   }
-  const BatchResult batch =
-      SolveBatch(options.batch, knowledge, segments, fps, threads, progress, options.checkpoint);
+  BatchResult batch;
+  if (options.method == ReconstructMethod::kDynamics) {
+    DynamicsResult dynamics =
+        SolveDynamics(options.dynamics, options.batch, knowledge, segments, fps, threads, progress);
+    batch = std::move(dynamics.batch);
+    report.dynamics = std::move(dynamics.report);
+  } else {
+    batch =
+        SolveBatch(options.batch, knowledge, segments, fps, threads, progress, options.checkpoint);
+  }
   report.initial_cost = batch.report.initial_cost;
   report.final_cost = batch.report.final_cost;
   report.iterations = batch.report.iterations;
@@ -211,6 +272,7 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   }
   WarnOfDisagreement(knowledge, batch.report, &report);
   report.observability = DescribeObservability(knowledge, segments, batch.paths, report);
+  if (report.dynamics) report.observability += DescribeDynamics(*report.dynamics);
   result.trajectories = Assemble(camera, knowledge, segments, batch.paths, fps, true);
   return result;
 }

@@ -36,8 +36,12 @@ const std::vector<DepthMethod>& DepthMethods() {
   static const std::vector<DepthMethod> methods = {
       {"batch"},
       {.name = "batch-no-size", .use_size = false},
+      {"dynamics", ReconstructMethod::kDynamics},
+      {.name = "dynamics-no-size", .method = ReconstructMethod::kDynamics, .use_size = false},
       {"cobyla", ReconstructMethod::kCobyla},
-      {.name = "cobyla-current", .method = ReconstructMethod::kCobyla, .current_frame = true}};
+      {.name = "cobyla-current", .method = ReconstructMethod::kCobyla, .current_frame = true},
+      {"lin-ceres", ReconstructMethod::kLinCeres},
+      {.name = "lin-ceres-current", .method = ReconstructMethod::kLinCeres, .current_frame = true}};
   return methods;
 }
 

@@ -3,6 +3,8 @@
 
 #include "tools/reconstruct_command.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -68,19 +70,24 @@ double FpsFor(const ReconstructCommand& command, const CommonOptions& common, co
 }
 
 nlohmann::ordered_json AsJson(const ReconstructReport& report) {
-  nlohmann::ordered_json json = {{"method", NameOf(report.method)},
-                                 {"scale_sd", report.scale_sd},
-                                 {"scale_from", report.scale_from},
-                                 {"observability", report.observability},
-                                 {"relative_sd", report.relative_sd},
-                                 {"segments", report.segments},
-                                 {"cuts", report.cuts},
-                                 {"pixel_sd", report.pixel_sd},
-                                 {"initial_cost", report.initial_cost},
-                                 {"final_cost", report.final_cost},
-                                 {"iterations", report.iterations},
-                                 {"converged", report.converged}};
+  nlohmann::ordered_json json = {
+      {"method", NameOf(report.method)},       {"scale_sd", report.scale_sd},
+      {"scale_from", report.scale_from},       {"outlook", report.outlook},
+      {"observability", report.observability}, {"relative_sd", report.relative_sd},
+      {"segments", report.segments},           {"cuts", report.cuts},
+      {"pixel_sd", report.pixel_sd},           {"initial_cost", report.initial_cost},
+      {"final_cost", report.final_cost},       {"iterations", report.iterations},
+      {"converged", report.converged}};
   for (const auto& [name, value] : report.spreads) json["spreads"][name] = value;
+  if (report.dynamics) {
+    const DynamicsReport& d = *report.dynamics;
+    json["dynamics"] = {{"kept", d.kept},
+                        {"of_windows", d.windows},
+                        {"hidden_sightings", d.hidden},
+                        {"prediction_error_batch", d.batch_error},
+                        {"prediction_error_dynamics", d.dynamics_error}};
+    for (const auto& [name, value] : d.forces) json["dynamics"]["forces"][name] = value;
+  }
   for (const TermStatistics& term : report.terms) {
     json["residuals"].push_back({{"name", term.name},
                                  {"count", term.count},
@@ -115,11 +122,11 @@ Knowledge KnowledgeOf(const ReconstructCommand& command) {
 
 void RunReconstruct(const ReconstructCommand& command, const CommonOptions& common) {
   ReconstructOptions options;
-  options.method =
-      command.method == "cobyla" ? ReconstructMethod::kCobyla : ReconstructMethod::kBatch;
+  options.method = MethodOf(command.method);
   options.knowledge = KnowledgeOf(command);
   options.pitch_deg = command.pitch_deg;
   options.batch = command.batch;
+  options.dynamics = command.dynamics;
   options.cobyla = command.cobyla;
   options.checkpoint = common.out / ".reconstruct-windows";
 
@@ -132,6 +139,7 @@ void RunReconstruct(const ReconstructCommand& command, const CommonOptions& comm
   if (command.pitch_deg) stage.options()["pitch"] = *command.pitch_deg;
   if (common.fps) stage.options()["fps"] = *common.fps;
   stage.options()["batch"] = OptionsAsJson(command.batch);
+  stage.options()["dynamics"] = OptionsAsJson(command.dynamics);
   stage.options()["cobyla"] = OptionsAsJson(command.cobyla);
   RequireFile(command.tracks, "give the file that `flocklift track` wrote");
   RequireFile(command.camera, "make one with `flocklift camera` or `flocklift calibrate`");
@@ -158,8 +166,10 @@ void RunReconstruct(const ReconstructCommand& command, const CommonOptions& comm
         ReadFirstDepths(command.first_depths, camera, SpanOf(tracks).first);
   }
   const double fps = FpsFor(command, common, tracks, camera);
-  progress = stage.BeginPhase(
-      "solve", options.method == ReconstructMethod::kBatch ? "iterations" : "frames");
+  if (!common.quiet) fmt::print(stderr, "{}\n", LookAhead(options, tracks, camera, fps));
+  progress = stage.BeginPhase("solve", command.method == "cobyla" || command.method == "lin-ceres"
+                                           ? "frames"
+                                           : "iterations");
   const ReconstructResult result =
       Reconstruct(options, tracks, camera, fps, common.ThreadCount(), progress);
   stage.BeginPhase("write", "files");
@@ -215,17 +225,22 @@ void AddReconstructCommand(CLI::App& app) {
   sub->add_option("--camera", command->camera, "camera file")->required();
   sub->add_option("--shapes", command->shapes,
                   "shapes of the tracked animals; default: shapes.csv beside the tracks");
-  sub->add_option("--method", command->method, "batch (the best) or cobyla (as published)")
-      ->check(CLI::IsMember({"batch", "cobyla"}))
+  sub->add_option(
+         "--method", command->method,
+         "batch (the best), dynamics (with forces between the animals, where these predict "
+         "hidden sightings better), cobyla (as published) or lin-ceres (the same with another "
+         "optimiser)")
+      ->check(CLI::IsMember({"batch", "dynamics", "cobyla", "lin-ceres"}))
       ->capture_default_str();
   sub->add_option("--output", command->output, "name of the file to write; .h5 for HDF5")
       ->capture_default_str();
   AddKnowledgeFlags(*sub, command.get());
-  AddFlags(*sub, command->batch, "Method batch");
+  AddFlags(*sub, command->batch, "Methods batch and dynamics");
+  AddFlags(*sub, command->dynamics, "Method dynamics");
   sub->add_option("--first-depths", command->first_depths,
                   "trajectories whose depths in the first frame cobyla starts from")
-      ->group("Method cobyla");
-  AddFlags(*sub, command->cobyla, "Method cobyla");
+      ->group("Methods cobyla and lin-ceres");
+  AddFlags(*sub, command->cobyla, "Methods cobyla and lin-ceres");
 }
 
 }  // namespace flocklift

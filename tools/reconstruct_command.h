@@ -28,6 +28,7 @@ struct ReconstructCommand {
   bool no_size = false;
   std::string output = "trajectories.csv";  // name in the out folder; .h5 for HDF5
   BatchOptions batch;
+  DynamicsOptions dynamics;
   CobylaOptions cobyla;
 };
 

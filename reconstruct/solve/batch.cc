@@ -92,7 +92,7 @@ void Merge(const BatchReport& window, double share, BatchReport* report) {
 
 BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
                        const Segments& segments, double fps, int threads, const Progress& progress,
-                       const std::filesystem::path& checkpoint) {
+                       const std::filesystem::path& checkpoint, const WindowRefiner& refine) {
   BatchResult result;
   if (segments.segments.empty()) return result;
   Check(options.overlap < options.window, "solve-overlap must be less than solve-window");
@@ -122,8 +122,9 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
     std::int64_t here = 0;
     std::optional<SolvedWindow> kept = store.Find(w);
     if (!kept) {
-      kept = SolveWindow(options, knowledge, part.segments, belief, part.first_frame, fps, threads,
-                         [&] { Report(progress, done + here++, total); });
+      kept = SolveWindow(
+          options, knowledge, part.segments, belief, part.first_frame, fps, threads,
+          [&] { Report(progress, done + here++, total); }, refine);
       store.Keep(w, *kept);
     }
     const SolvedWindow& solved = *kept;

@@ -13,6 +13,7 @@
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_H_
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,10 @@
 #include "simulate/core/progress.h"
 
 namespace flocklift {
+
+namespace internal {
+struct WindowToRefine;  // window_solver.h
+}
 
 // How well one kind of residual is met at the solution, in units of its sd.
 struct TermStatistics {
@@ -51,12 +56,14 @@ struct BatchResult {
   BatchReport report;
 };
 
+// `refine`, where there is one, goes on from the batch solution of every window (window_solver.h).
 // Anchors and up_in_cam of `knowledge` are in the axes of the reference camera. Every sighting gets
 // a finite point, however little is known of it. A long sequence keeps the windows it has solved in
 // the file `checkpoint` (empty: nowhere) until it is done: a killed run goes on to the same bytes.
 BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
                        const Segments& segments, double fps, int threads, const Progress& progress,
-                       const std::filesystem::path& checkpoint = {});
+                       const std::filesystem::path& checkpoint = {},
+                       const std::function<void(const internal::WindowToRefine&)>& refine = {});
 
 }  // namespace flocklift
 

@@ -25,17 +25,6 @@ constexpr double kRatioMean = -0.15;
 // How far they lean into their turns: 1 where lift alone carries weight and curve, 0 not at all.
 constexpr Uncertain kLeanIntoTurns{0.7, 0.5};
 
-Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time) {
-  const double position = time / model.knot_interval - bird.first_knot;
-  Bird::Place place;
-  place.interval = std::clamp(static_cast<int>(std::floor(position)), 0, bird.knots - 2);
-  const double s = position - place.interval;
-  place.weights = SplineWeights(s);
-  place.slopes = SplineSlopes(s);
-  for (double& slope : place.slopes) slope /= model.knot_interval;
-  return place;
-}
-
 // X and Y of the control points: reprojection and white accelerations, linear.
 void SmoothImagePath(const BatchModel& model, Bird* bird) {
   ArrowSystem system(bird->unknowns(), 0, 0);
@@ -150,6 +139,17 @@ void StartDepth(const BatchModel& model, const ScaleGuess& guess, Bird* bird) {
 }
 
 }  // namespace
+
+Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time) {
+  const double position = time / model.knot_interval - bird.first_knot;
+  Bird::Place place;
+  place.interval = std::clamp(static_cast<int>(std::floor(position)), 0, bird.knots - 2);
+  const double s = position - place.interval;
+  place.weights = SplineWeights(s);
+  place.slopes = SplineSlopes(s);
+  for (double& slope : place.slopes) slope /= model.knot_interval;
+  return place;
+}
 
 BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
                      const Segments& segments, const ScaleGuess& guess,

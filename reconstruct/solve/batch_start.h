@@ -23,6 +23,9 @@ ScaleGuess WithBelief(const ScaleGuess& guess, const Knowledge& knowledge,
 // The flock's unknowns at the means of their priors.
 Eigen::VectorXd StartOfShared(const BatchModel& model);
 
+// Where a time is on the path (of the model, the knots' interval counts).
+Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time);
+
 // Places the sightings and anchors on knots, smooths the image path, searches the depth.
 Bird StartBird(const BatchModel& model, const Knowledge& knowledge, const ScaleGuess& guess,
                const Segment& segment, double fps, int first_frame);

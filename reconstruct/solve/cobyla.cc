@@ -7,29 +7,13 @@
 #include <cmath>
 #include <nlopt.hpp>
 
+#include "reconstruct/solve/lin_objective.h"
 #include "simulate/core/check.h"
 #include "simulate/core/options.h"
-#include "simulate/forces/lin.h"
 
 namespace flocklift {
 namespace internal {
 namespace {
-
-// Where the rules want animal n to be, with the neighbours at `positions`.
-Vec3d TargetOf(const CobylaOptions& options, const std::vector<Vec3d>& positions, std::size_t n,
-               const Vec3d& last) {
-  const LinSeparation::Params<double> separation{options.d_sep, options.separation_exponent, 0};
-  const LinCohesion::Params<double> cohesion;
-  Weighted<double> apart, together;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (i == n) continue;
-    const Vec3d dx = positions[i] - positions[n];
-    apart += LinSeparation::Pair(separation, dx, Vec3d{});
-    together += LinCohesion::Pair(cohesion, dx, Vec3d{});
-  }
-  return LinTarget(last, options.lambda_sep, LinSeparation::Finish(separation, apart),
-                   LinCohesion::Finish(cohesion, together));
-}
 
 // The sum with the targets of frame f-1 at hand, which do not depend on the depths.
 double Objective(const CobylaOptions& options, double fps, const std::vector<LinAnimal>& animals,
@@ -45,28 +29,64 @@ double Objective(const CobylaOptions& options, double fps, const std::vector<Lin
       continue;
     }
     const Vec3d target =
-        options.current_frame ? TargetOf(options, positions, n, a.last) : targets[n];
+        options.current_frame ? LinTargetOf(options, positions, n, a.last) : targets[n];
     sum += options.lambda_t * std::abs(displacement - Norm(a.last - a.before_last)) +
            options.lambda_f * Norm(positions[n] - target);
   }
   return sum;
 }
 
-std::vector<Vec3d> TargetsOfLastFrame(const CobylaOptions& options,
-                                      const std::vector<LinAnimal>& animals) {
-  std::vector<Vec3d> last, targets;
-  for (const LinAnimal& a : animals) last.push_back(a.last);
-  for (std::size_t n = 0; n < animals.size(); ++n) {
-    targets.push_back(TargetOf(options, last, n, last[n]));
-  }
-  return targets;
+struct Problem {
+  const CobylaOptions& options;
+  double fps;
+  const std::vector<LinAnimal>& animals;
+  const std::vector<Vec3d>& targets;
+};
+
+double Evaluate(const std::vector<double>& x, std::vector<double>& /*gradient*/, void* data) {
+  const Problem& p = *static_cast<const Problem*>(data);
+  return Objective(p.options, p.fps, p.animals, p.targets, x.data());
 }
 
 }  // namespace
 
+std::vector<Vec3d> LinTargetsOfLastFrame(const CobylaOptions& options,
+                                         const std::vector<LinAnimal>& animals) {
+  std::vector<Vec3d> last, targets;
+  for (const LinAnimal& a : animals) last.push_back(a.last);
+  for (std::size_t n = 0; n < animals.size(); ++n) {
+    targets.push_back(LinTargetOf(options, last, n, last[n]));
+  }
+  return targets;
+}
+
 double LinObjective(const CobylaOptions& options, double fps, const std::vector<LinAnimal>& animals,
                     const std::vector<double>& depths) {
-  return Objective(options, fps, animals, TargetsOfLastFrame(options, animals), depths.data());
+  return Objective(options, fps, animals, LinTargetsOfLastFrame(options, animals), depths.data());
+}
+
+double MinimizeLinByCobyla(const CobylaOptions& options, double fps,
+                           const std::vector<LinAnimal>& animals, std::vector<double>* depths,
+                           bool* exhausted) {
+  const std::vector<Vec3d> targets = LinTargetsOfLastFrame(options, animals);
+  Problem problem{options, fps, animals, targets};
+  nlopt::opt solver(nlopt::LN_COBYLA, static_cast<unsigned>(animals.size()));
+  solver.set_min_objective(Evaluate, &problem);
+  solver.set_lower_bounds(options.near);
+  solver.set_upper_bounds(options.far);
+  solver.set_xtol_rel(options.tolerance);
+  solver.set_maxeval(options.max_evaluations);
+  // The first trust region: the farthest an animal may come in one frame.
+  solver.set_initial_step(std::max(options.lambda_speed / fps, 1e-3 * options.near));
+  double cost = 0;
+  *exhausted = false;
+  try {
+    *exhausted = solver.optimize(*depths, cost) == nlopt::MAXEVAL_REACHED;
+  } catch (const nlopt::roundoff_limited&) {
+    // The depths are the best found.
+    cost = Objective(options, fps, animals, targets, depths->data());
+  }
+  return cost;
 }
 
 }  // namespace internal
@@ -81,41 +101,6 @@ struct Track {
   int solved_frames = 0;
   Vec3d last, before_last;
 };
-
-struct Problem {
-  const CobylaOptions& options;
-  double fps;
-  const std::vector<LinAnimal>& animals;
-  const std::vector<Vec3d>& targets;
-};
-
-double Evaluate(const std::vector<double>& x, std::vector<double>& /*gradient*/, void* data) {
-  const Problem& p = *static_cast<const Problem*>(data);
-  return internal::Objective(p.options, p.fps, p.animals, p.targets, x.data());
-}
-
-void SolveFrame(const CobylaOptions& options, double fps, const std::vector<LinAnimal>& animals,
-                std::vector<double>* depths, CobylaReport* report) {
-  const std::vector<Vec3d> targets = internal::TargetsOfLastFrame(options, animals);
-  Problem problem{options, fps, animals, targets};
-  nlopt::opt solver(nlopt::LN_COBYLA, static_cast<unsigned>(animals.size()));
-  solver.set_min_objective(Evaluate, &problem);
-  solver.set_lower_bounds(options.near);
-  solver.set_upper_bounds(options.far);
-  solver.set_xtol_rel(options.tolerance);
-  solver.set_maxeval(options.max_evaluations);
-  // The first trust region: the farthest an animal may come in one frame.
-  solver.set_initial_step(std::max(options.lambda_speed / fps, 1e-3 * options.near));
-  double cost = 0;
-  ++report->frames;
-  try {
-    if (solver.optimize(*depths, cost) == nlopt::MAXEVAL_REACHED) ++report->exhausted;
-  } catch (const nlopt::roundoff_limited&) {
-    // The depths are the best found.
-    cost = internal::Objective(options, fps, animals, targets, depths->data());
-  }
-  report->final_cost += cost;
-}
 
 void FillVelocities(double fps, const Segment& segment, SolvedPath* path) {
   for (std::size_t k = 0; k < path->size(); ++k) {
@@ -132,7 +117,8 @@ void FillVelocities(double fps, const Segment& segment, SolvedPath* path) {
 }  // namespace
 
 CobylaResult SolveCobyla(const CobylaOptions& options, const FirstDepths& first_depths,
-                         const Segments& segments, double fps, const Progress& progress) {
+                         const Segments& segments, double fps, const Progress& progress,
+                         LinOptimizer optimizer) {
   CheckOptions(options);
   Check(options.near > 0 && options.near < options.far,
         "d-near must be positive and less than d-far");
@@ -185,7 +171,12 @@ CobylaResult SolveCobyla(const CobylaOptions& options, const FirstDepths& first_
       take(i, depth * ray);
     }
     if (!animals.empty()) {
-      SolveFrame(options, fps, animals, &depths, &result.report);
+      const auto minimize = optimizer == LinOptimizer::kCobyla ? internal::MinimizeLinByCobyla
+                                                               : internal::MinimizeLinByCeres;
+      bool exhausted = false;
+      result.report.final_cost += minimize(options, fps, animals, &depths, &exhausted);
+      result.report.exhausted += exhausted ? 1 : 0;
+      ++result.report.frames;
       for (std::size_t k = 0; k < there.size(); ++k) take(there[k], depths[k] * animals[k].ray);
     }
     if (count > 0) mean_depth = sum / count;

@@ -68,7 +68,7 @@ void Describe(Visitor& visit, CobylaOptions& o) {
 struct CobylaReport {
   double final_cost = 0;  // sum of the frames' minima
   int frames = 0;         // solved by optimisation
-  int exhausted = 0;      // of those, stopped by max_evaluations
+  int exhausted = 0;      // of those, stopped before the optimiser was done
 };
 
 struct CobylaResult {
@@ -79,8 +79,13 @@ struct CobylaResult {
 // Depths of the first frame that somebody assigns, by id [m]; others start at mid-range.
 using FirstDepths = std::map<Id, double>;
 
+// The published optimiser, or Levenberg and Marquardt on the same objective (lin_ceres.cc): what
+// the optimiser alone changes.
+enum class LinOptimizer { kCobyla, kCeres };
+
 CobylaResult SolveCobyla(const CobylaOptions& options, const FirstDepths& first_depths,
-                         const Segments& segments, double fps, const Progress& progress);
+                         const Segments& segments, double fps, const Progress& progress,
+                         LinOptimizer optimizer = LinOptimizer::kCobyla);
 
 namespace internal {
 

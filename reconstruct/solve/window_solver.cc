@@ -130,7 +130,7 @@ bool Solver::Minimize(int max_iterations, BatchReport* report,
   for (std::size_t i = 0; i < work_.size(); ++i) work_[i].candidate = state_.birds[i];
   int still = 0;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    on_iteration();
+    if (on_iteration) on_iteration();
     ++report->iterations;
     Assemble();
     Eigen::MatrixXd matrix;
@@ -346,7 +346,7 @@ void CollectTerms(const State& state, BatchReport* report) {
 SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge,
                          const Segments& segments, const std::optional<Belief>& belief,
                          int first_frame, double fps, int threads,
-                         const std::function<void()>& on_iteration) {
+                         const std::function<void()>& on_iteration, const WindowRefiner& refine) {
   SolvedWindow solved;
   BatchReport& report = solved.result.report;
   const ScaleGuess guess = WithBelief(GuessScale(knowledge, segments), knowledge, belief);
@@ -373,6 +373,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
       report.converged = solver.Minimize(kSpreadIterations, &report, on_iteration);
     }
   }
+  if (refine) refine({segments, belief, first_frame, state.model, &state.birds, &state.shared});
   report.final_cost = solver.Cost();
   const Eigen::MatrixXd covariance = ReadOut(&state, &solver, &solved.result);
   CollectTerms(state, &report);

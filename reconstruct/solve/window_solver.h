@@ -26,11 +26,24 @@ struct SolvedWindow {
   Belief belief;  // in the flock's first four unknowns, that of other windows included
 };
 
+// A window when the batch method is done with it, for a method that goes on from there and leaves
+// its own paths.
+struct WindowToRefine {
+  const Segments& segments;
+  const std::optional<Belief>& belief;
+  int first_frame = 0;
+  const BatchModel& model;
+  std::vector<Bird>* birds = nullptr;
+  Eigen::VectorXd* shared = nullptr;
+};
+using WindowRefiner = std::function<void(const WindowToRefine&)>;
+
 // `belief`: what other windows said. `first_frame` is the frame at time 0 of the segments.
 SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge,
                          const Segments& segments, const std::optional<Belief>& belief,
                          int first_frame, double fps, int threads,
-                         const std::function<void()>& on_iteration);
+                         const std::function<void()>& on_iteration,
+                         const WindowRefiner& refine = {});
 
 }  // namespace flocklift::internal
 

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Flock dynamics on top of the batch method: the forces between the animals are estimated together
+// with their paths (coupled_flock.h), from the batch solution on, in turns and with less and less
+// noise. They have to earn their place: a part of the sightings is hidden from both, and the forces
+// are kept only where they predict these better than the batch solution does.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
+#define FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
+
+#include "reconstruct/solve/batch.h"
+
+namespace flocklift {
+
+struct DynamicsOptions {
+  double hidden = 0.1;
+  double hidden_time = 0.8;
+  double noise_sd = 0.8;
+  double noise_time = 0.7;
+  int rounds = 4;
+};
+
+template <typename Visitor>
+void Describe(Visitor& visit, DynamicsOptions& o) {
+  visit("hidden", o.hidden, {.low = 0.01, .high = 0.5}, "",
+        "share of the sightings on which forces are tested");
+  visit("hidden-time", o.hidden_time, {.low = 0.05, .high = 10}, "s",
+        "how long an animal is hidden in one piece");
+  visit("noise-sd", o.noise_sd, {.low = 0.01, .high = 100}, "m/s^2",
+        "least spread of accelerations beyond the forces");
+  visit("noise-time", o.noise_time, {.low = 0.01, .high = 100}, "s", "how long these last");
+  visit("rounds", o.rounds, {.low = 1, .high = 20}, "", "turns of forces and paths, at most");
+}
+
+// What came of it, over all windows.
+struct DynamicsReport {
+  int windows = 0, kept = 0;
+  long hidden = 0;         // sightings
+  double batch_error = 0;  // mean error of the predicted image positions, in their sds
+  double dynamics_error = 0;
+  // Of the last window with forces: by the names of boids, `spring` and `pull` (mean) for the goal.
+  std::vector<std::pair<std::string, double>> forces;
+};
+
+struct DynamicsResult {
+  BatchResult batch;  // with forces where these were kept
+  DynamicsReport report;
+};
+
+DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& batch,
+                             const Knowledge& knowledge, const Segments& segments, double fps,
+                             int threads, const Progress& progress);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_

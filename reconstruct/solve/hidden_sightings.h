@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Sightings kept back from a solver, to see which of two solutions predicts them better: pieces of
+// tracks, each with sightings before and after it.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_HIDDEN_SIGHTINGS_H_
+#define FLOCKLIFT_RECONSTRUCT_SOLVE_HIDDEN_SIGHTINGS_H_
+
+#include <vector>
+
+#include "reconstruct/initialize/segments.h"
+#include "reconstruct/solve/batch_problem.h"
+
+namespace flocklift::internal {
+
+class HiddenSightings {
+ public:
+  // Hides about `share` of every long enough segment in pieces of `duration` [s], evenly spread and
+  // staggered from segment to segment.
+  HiddenSightings(double share, double duration, double fps, const Segments& segments);
+
+  const Segments& rest() const { return rest_; }  // the segments without what is hidden
+  long count() const { return count_; }
+
+  // Of every piece: the mean error of the image positions that the paths predict, in their sds.
+  // Far errors count little more than near ones: square roots are averaged.
+  std::vector<double> ErrorsOf(const std::vector<Bird>& birds, double knot_interval) const;
+
+ private:
+  struct Piece {
+    std::size_t segment = 0;
+    std::vector<Sighting> sightings;
+  };
+  Segments rest_;
+  std::vector<Piece> pieces_;
+  long count_ = 0;
+};
+
+double MeanOf(const std::vector<double>& values);
+
+// Is `errors` less than `others`, piece by piece, by more than one standard error of the mean?
+bool PredictsBetter(const std::vector<double>& errors, const std::vector<double>& others);
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_RECONSTRUCT_SOLVE_HIDDEN_SIGHTINGS_H_

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/solve/dynamics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "reconstruct/solve/coupled_flock.h"
+#include "reconstruct/solve/hidden_sightings.h"
+#include "reconstruct/solve/window_solver.h"
+#include "tests/reconstruct/circling_flock.h"
+
+namespace flocklift {
+namespace {
+
+constexpr double kFps = 30;
+
+Knowledge Known(const FlockSpec& spec) {
+  Knowledge knowledge;
+  knowledge.speed = Uncertain{spec.speed, 0.1 * spec.speed};
+  knowledge.wingspan = Uncertain{spec.wingspan, 0.05 * spec.wingspan};
+  return knowledge;
+}
+
+Segments Seen(const FlockSpec& spec) {
+  const Camera camera = WatchingCamera();
+  return MakeSegments({}, Observe(spec, {}, CirclingFlock(spec), camera), camera, kFps);
+}
+
+TEST(HiddenSightings, HidesItsShareInPiecesBetweenSightings) {
+  const Segments all = Seen({.count = 8, .frames = 240});
+  const internal::HiddenSightings hidden(0.1, 0.5, kFps, all);
+  long kept = 0, whole = 0;
+  for (std::size_t i = 0; i < all.segments.size(); ++i) {
+    const auto& before = all.segments[i].sightings;
+    const auto& after = hidden.rest().segments[i].sightings;
+    EXPECT_EQ(before.front().frame, after.front().frame);
+    EXPECT_EQ(before.back().frame, after.back().frame);
+    kept += static_cast<long>(after.size());
+    whole += static_cast<long>(before.size());
+    for (std::size_t k = 1; k < after.size(); ++k) {
+      EXPECT_LE(after[k].frame - after[k - 1].frame, 16);
+    }
+  }
+  EXPECT_EQ(kept + hidden.count(), whole);
+  EXPECT_NEAR(static_cast<double>(hidden.count()) / static_cast<double>(whole), 0.09, 0.04);
+  EXPECT_EQ(hidden.rest().rows, kept);
+}
+
+TEST(HiddenSightings, BetterMeansByMoreThanItsError) {
+  EXPECT_TRUE(internal::PredictsBetter({1, 1.1, 0.9, 1}, {2, 2.1, 1.9, 2.05}));
+  EXPECT_FALSE(internal::PredictsBetter({2, 2.1, 1.9, 2}, {1, 1.1, 0.9, 1}));
+  EXPECT_FALSE(internal::PredictsBetter({1, 3, 1, 3}, {2, 2, 2.1, 2}));  // by chance
+  EXPECT_FALSE(internal::PredictsBetter({1, 1, 1}, {1, 1, 1}));
+  EXPECT_FALSE(internal::PredictsBetter({}, {}));
+}
+
+// Gradient of the whole coupled cost against differences, in random directions.
+TEST(CoupledFlock, GradientIsThatOfDifferences) {
+  const FlockSpec spec{.count = 5, .frames = 40};
+  const Segments segments = Seen(spec);
+  bool asked = false;
+  internal::SolveWindow({.max_iterations = 3}, Known(spec), segments, std::nullopt, 1, kFps, 1, {},
+                        [&](const internal::WindowToRefine& window) {
+                          asked = true;
+                          internal::CoupledFlock flock(window.model, window.birds, window.shared);
+                          flock.noise = {.sd = 2, .time = 0.7};
+                          flock.forces.alpha_s = 1.2;
+                          flock.forces.alpha_c = 0.2;
+                          flock.forces.alpha_a = 0.7;
+                          flock.forces.cruise = 0.5;
+                          flock.forces.spring = 0.2;
+                          flock.FreezeNeighbours();
+                          const Eigen::VectorXd gradient = flock.Gradient();
+                          const auto move = [&](const Eigen::VectorXd& d, double step) {
+                            Eigen::Index at = 0;
+                            for (internal::Bird& bird : *window.birds) {
+                              for (double& p : bird.path) p += step * d[at++];
+                              for (double& p : bird.own) p += step * d[at++];
+                            }
+                            *window.shared += step * d.tail(window.shared->size());
+                          };
+                          Rng rng(4);
+                          for (int trial = 0; trial < 5; ++trial) {
+                            Eigen::VectorXd d(gradient.size());
+                            for (double& x : d) x = rng.Normal();
+                            constexpr double kStep = 1e-7;
+                            move(d, kStep);
+                            const double up = flock.Cost();
+                            move(d, -2 * kStep);
+                            const double down = flock.Cost();
+                            move(d, kStep);
+                            const double slope = (up - down) / (2 * kStep);
+                            EXPECT_NEAR(slope / gradient.dot(d), 1, 1e-4);
+                          }
+                        });
+  EXPECT_TRUE(asked);
+}
+
+TEST(CoupledFlock, MinimizeLowersTheCostToWhereTheGradientIsSmall) {
+  const FlockSpec spec{.count = 6, .frames = 60};
+  internal::SolveWindow({}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
+                        [&](const internal::WindowToRefine& window) {
+                          internal::CoupledFlock flock(window.model, window.birds, window.shared);
+                          flock.FitRadii();
+                          const double before = flock.Cost();
+                          flock.Minimize(30, {});
+                          const double after = flock.Cost();
+                          EXPECT_LT(after, before);
+                          flock.Minimize(30, {});
+                          EXPECT_NEAR(flock.Cost(), after, 1e-2 * after);
+                        });
+}
+
+std::map<std::pair<Id, int>, double> Depths(const DynamicsResult& result,
+                                            const Segments& segments) {
+  std::map<std::pair<Id, int>, double> depths;
+  for (std::size_t i = 0; i < segments.segments.size(); ++i) {
+    for (std::size_t k = 0; k < segments.segments[i].sightings.size(); ++k) {
+      depths[{segments.segments[i].id, segments.segments[i].sightings[k].frame}] =
+          result.batch.paths[i][k].position_in_cam.z;
+    }
+  }
+  return depths;
+}
+
+TEST(Dynamics, GivesTheSameAtAnyNumberOfThreadsAndAlwaysADepth) {
+  const FlockSpec spec{.count = 6, .frames = 90};
+  const Segments segments = Seen(spec);
+  const DynamicsOptions options{.rounds = 2};
+  const auto one = Depths(SolveDynamics(options, {}, Known(spec), segments, kFps, 1, {}), segments);
+  const auto two = Depths(SolveDynamics(options, {}, Known(spec), segments, kFps, 2, {}), segments);
+  EXPECT_EQ(one, two);
+  for (const auto& [row, depth] : one) {
+    EXPECT_TRUE(std::isfinite(depth) && depth > 0) << row.first << " " << row.second;
+  }
+}
+
+// Animals on circles of their own hear nobody: what is kept must not be worse, and batch is kept
+// to the digit where forces do not help.
+TEST(Dynamics, LeavesBatchAloneWhereForcesAreNotKept) {
+  const FlockSpec spec{.count = 6, .frames = 120};
+  const Segments segments = Seen(spec);
+  const DynamicsResult dynamics =
+      SolveDynamics({.rounds = 1}, {}, Known(spec), segments, kFps, 1, {});
+  EXPECT_EQ(dynamics.report.windows, 1);
+  EXPECT_GT(dynamics.report.hidden, 0);
+  if (dynamics.report.kept == 0) {
+    const BatchResult batch = SolveBatch({}, Known(spec), segments, kFps, 1, {});
+    for (std::size_t i = 0; i < batch.paths.size(); ++i) {
+      EXPECT_EQ(batch.paths[i].back().position_in_cam.z,
+                dynamics.batch.paths[i].back().position_in_cam.z);
+    }
+  } else {
+    EXPECT_LT(dynamics.report.dynamics_error, dynamics.report.batch_error);
+  }
+}
+
+TEST(Dynamics, ShortTracksAreLeftToBatch) {
+  const FlockSpec spec{.count = 3, .frames = 6};
+  const Segments segments = Seen(spec);
+  const DynamicsResult result = SolveDynamics({}, {}, Known(spec), segments, kFps, 1, {});
+  EXPECT_EQ(result.report.windows, 0);
+  EXPECT_EQ(result.batch.paths.size(), segments.segments.size());
+}
+
+}  // namespace
+}  // namespace flocklift
