@@ -38,14 +38,15 @@ assert.equal((await look()).agents, 61);
 
 // Pause, step, go on.
 await page.keyboard.press('Space');
-await until('a pause', async () => {
+const standsStill = async () => {  // long enough that a busy computer does not look like it
   const a = (await look()).time;
-  await page.waitForTimeout(120);
+  await page.waitForTimeout(1000);
   return (await look()).time === a;
-});
+};
+await until('a pause', standsStill);
 const paused = (await look()).time;
 await page.keyboard.press('ArrowRight');
-await until('a step', async () => (await look()).time > paused);
+await until('a step', async () => (await look()).time > paused && (await standsStill()));
 assert.ok(Math.abs((await look()).time - paused - 1 / 60) < 1e-3);
 console.log('ok: it runs, pauses and steps');
 
