@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// One fit in the making (fit.h): what its stages share. The rows of the regression and its solution
+// (fit.cc), a goal where one is called for (fitter_goal.cc), what depth errors do (fitter_depth.cc)
+// and what is reported (fitter_summary.cc).
+
+#ifndef FLOCKLIFT_RECONSTRUCT_FIT_FITTER_H_
+#define FLOCKLIFT_RECONSTRUCT_FIT_FITTER_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reconstruct/fit/fit.h"
+#include "reconstruct/fit/flock_terms.h"
+#include "reconstruct/fit/motion_rows.h"
+#include "reconstruct/fit/observed_flock.h"
+#include "reconstruct/fit/whitened_fit.h"
+
+namespace flocklift::internal {
+
+class Fitter {
+ public:
+  Fitter(const FitOptions& options, const FitProblem& problem, const Trajectories& trajectories,
+         double fps, std::uint64_t seed, int threads)
+      : options_(options),
+        problem_(problem),
+        trajectories_(trajectories),
+        fps_(fps),
+        seed_(seed),
+        threads_(threads),
+        flock_(trajectories, fps, options.bridged_gap) {}
+
+  FitResult Run(const Progress& progress);
+
+ private:
+  void UseGoal(const std::optional<GoalSpec>& goal);
+  // And puts the parameters that are not weights, which only a state-space estimate can free,
+  // last.
+  void ChooseMethod();
+  // From the regression's estimate, which it replaces, and the other parameters as given.
+  void EstimateStates(WhitenedFit* fit);
+  // Without the parameters that are none.
+  std::vector<double> WeightsOf(const std::vector<double>& theta) const;
+  void ChooseWhitening();
+  // Rows and weights for the terms as they are; u_ is what they leave over.
+  WhitenedFit Solve(const Progress& progress);
+  double Pull() const;
+  std::optional<double> Prediction() const;
+  // Fits with a goal where one is called for, and keeps it when it predicts better.
+  void SettleGoal(WhitenedFit* fit);
+  // The goal moves to where the mean of what is left over vanishes, unless its place was given.
+  void LocateGoal(GoalSpec goal, WhitenedFit* fit);
+  void ChooseRows();
+  MotionRows Rows(const ObservedFlock& flock, const Progress& progress) const;
+  void SummarizeWeights(const WhitenedFit& fit);
+  // May the model's weight be no less than 0?
+  bool IsPositive(const std::string& name) const;
+  void SummarizeRest(const WhitenedFit& fit);
+  // Simulation extrapolation: what one more error of the stated size does.
+  void AddDepthFactors(const WhitenedFit& fit);
+  void WriteParametersOf(const WhitenedFit& fit);
+
+  const FitOptions& options_;
+  const FitProblem& problem_;
+  const Trajectories& trajectories_;
+  double fps_;
+  std::uint64_t seed_;
+  int threads_;
+  ObservedFlock flock_;
+  ModelSpec model_;                    // complete
+  std::vector<std::string> free_;      // of the model
+  std::size_t weights_ = 0;            // of them; then those by which accelerations are not linear
+  std::vector<double> parameter_rms_;  // of a state-space estimate
+  std::optional<GoalSpec> goal_;
+  double cruising_speed_ = 0;  // that the terms count on [m/s]
+  FlockTerms terms_;
+  WhiteningOptions whitening_;
+  MotionRows rows_;
+  int window_ = 1, stride_ = 1;
+  std::vector<int> middles_;
+  std::vector<Vec3d> u_;
+  FitResult result_;
+};
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_RECONSTRUCT_FIT_FITTER_H_
