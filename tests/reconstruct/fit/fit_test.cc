@@ -71,12 +71,13 @@ TEST(Fit, RecoversTheWeightsOfTheSimulatorAndItsNoise) {
 }
 
 TEST(Fit, IntervalsCoverOverSeedsWhereLeastSquaresIsFarOff) {
-  constexpr int kSeeds = 40;
+  constexpr int kSeeds = 16;
   std::map<std::string, int> covered;
   std::map<std::string, double> squares;
   double plain = 0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
-    const Scene scene = BoidsScene(static_cast<std::uint64_t>(seed));
+    Scene scene = BoidsScene(static_cast<std::uint64_t>(seed));
+    scene.species[0].count = 12;
     FitOptions options;
     options.held_out = 0;
     const FitResult result = Fit(ProblemOf(scene), Fly(scene), options);
@@ -89,10 +90,13 @@ TEST(Fit, IntervalsCoverOverSeedsWhereLeastSquaresIsFarOff) {
     }
     plain += WeightOf(result, "alpha_a").plain / kSeeds;
   }
+  int all = 0;
   for (const auto& [name, count] : covered) {
-    EXPECT_GE(count, 34) << name;  // of 40: 85 %
+    EXPECT_GE(count, 12) << name;  // of 16
+    all += count;
     EXPECT_GT(squares[name], 0.2) << name << ": intervals much too wide";
   }
+  EXPECT_GE(all, 82);     // of 96: 85 %
   EXPECT_LT(plain, 0.5);  // true 0.8
 }
 
@@ -160,7 +164,7 @@ TEST(Fit, PlainDifferencesAreTakenOnlyWhenNamedAndThenNotSilently) {
 }
 
 TEST(Fit, EveryEstimatorByItsNameOnTheLinearFlock) {
-  const LinearFlock flock = FlyLinearFlock(3);
+  const LinearFlock flock = FlyLinearFlock(3, 2000);
   FitProblem problem;
   problem.model.name = "linear";
   std::map<FitMethod, FitResult> results;
@@ -192,7 +196,7 @@ TEST(Fit, EveryEstimatorByItsNameOnTheLinearFlock) {
 // Boids whose edges are soft, which know no cruising speeds and whose noise forgets at once.
 Scene SmoothScene(std::uint64_t seed) {
   Scene scene = BoidsScene(seed);
-  scene.duration = 4;
+  scene.duration = 2.5;
   scene.box = {{-10, -10, 0}, {10, 10, 20}};
   scene.species[0].model.parameters.insert_or_assign("taper", 1.0);
   for (const auto& [name, value] : std::map<std::string, double>{{"d_v", 6.0},
@@ -235,7 +239,8 @@ TEST(Fit, RadiiThroughTheirTapersTogetherWithTheWeights) {
 }
 
 TEST(Fit, ARadiusThatNobodyCrossesIsNotDetermined) {
-  const Scene scene = SmoothScene(3);
+  Scene scene = SmoothScene(3);
+  scene.duration = 1.5;
   FitProblem problem;
   problem.model = scene.species[0].model;
   problem.walls = scene.box;
@@ -316,7 +321,6 @@ TEST(Fit, IsTheSameAtAnyNumberOfThreads) {
 TEST(Fit, DepthErrorsAreToldInFigures) {
   // Seen from 60 m away along y, depths wrong by a slow error of 1 m.
   Scene scene = BoidsScene(7);
-  scene.duration = 15;
   const Trajectories truth = Fly(scene);
   Trajectories seen = truth;
   seen.has_sd_depth = true;
@@ -332,7 +336,7 @@ TEST(Fit, DepthErrorsAreToldInFigures) {
     }
   }
   FitOptions options;
-  options.depth_draws = 3;
+  options.depth_draws = 2;
   const FitResult clean = Fit(problem, truth, options);
   const FitResult result = Fit(problem, seen, options);
   ASSERT_TRUE(result.IsUsable());
@@ -393,7 +397,7 @@ TEST(Fit, ATermThatNeverActsIsNotDetermined) {
 
 TEST(Fit, AMovingPointThatAttractsIsFoundWhenSomethingHoldsTheFlock) {
   Scene scene = BoidsScene(3);
-  scene.duration = 20;
+  scene.duration = 12;
   scene.warmup = 10;
   scene.box = {{-1e6, -1e6, -1e6}, {1e6, 1e6, 1e6}};
   scene.species[0].start = Region{{-8, -8, 4}, {8, 8, 20}};
