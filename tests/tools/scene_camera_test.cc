@@ -14,8 +14,11 @@ namespace {
 TEST(SceneCameraTest, StandsAsTheSceneSays) {
   Scene scene;
   scene.fps = 25;
-  scene.camera = {
-      .fov_deg = 60, .width = 400, .height = 300, .position = {1, 2, 3}, .look_at = {4, 5, 6}};
+  scene.camera.fov_deg = 60;
+  scene.camera.width = 400;
+  scene.camera.height = 300;
+  scene.camera.position = {1, 2, 3};
+  scene.camera.look_at = {4, 5, 6};
   const Camera camera = SceneCamera(scene);
   Camera expected = PinholeCamera(60, 400, 300);
   expected.fps = 25;

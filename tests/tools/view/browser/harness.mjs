@@ -41,6 +41,7 @@ export function run(program, args) {
 // The program's server and its address; stop() ends it as Ctrl-C does and gives its exit status.
 export async function serve(program, args) {
   const child = spawn(program, ['view', ...args], { stdio: ['ignore', 'pipe', 'pipe'] });
+  process.on('exit', () => child.kill('SIGKILL'));  // a test that fails leaves nothing behind
   let errors = '';
   child.stderr.on('data', (data) => (errors += data));
   const ended = new Promise((resolve) => child.on('exit', (code) => resolve(code)));

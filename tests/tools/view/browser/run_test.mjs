@@ -139,7 +139,8 @@ await until('new depths', async () => {
 });
 assert.ok(original < 49, `it was at ${original}`);
 assert.equal((await state()).table, 'after');
-assert.match(await page.locator('.line code').innerText(), /--method cobyla .*--d-near 50 --d-far 60/);
+await until('the command line', async () => /--method cobyla .*--d-near 50 --d-far 60/.test(
+  await page.locator('.line code').innerText()));
 say('a slider changes the depths');
 
 // Strokes become tracks, and a flock.
