@@ -23,6 +23,7 @@ export class Run {
   suspects: Suspect[] = [];
   solve: SolveNews | null = null;
   command: string;
+  private job = -1;  // that the command line is of
   private watchers = new Set<() => void>();
 
   constructor(
@@ -67,6 +68,14 @@ export class Run {
     this.watchers.add(listener);
     return () => this.watchers.delete(listener);
   }
+  // The command line of a solve that was asked for; answers may come in another order.
+  says(job: number, command: string): void {
+    if (job < this.job) return;
+    this.job = job;
+    this.command = command;
+    this.tell();
+  }
+
   private tell(): void {
     for (const watcher of this.watchers) watcher();
     this.clock.redraw();

@@ -123,7 +123,7 @@ export function SolvePanel({ run }: { run: Run }) {
     const send = () => {
       post<{ job: number; command: string }>('api/solve', values)
         .then((answer) => {
-          run.command = answer.command;
+          run.says(answer.job, answer.command);
           run.store.set({ message: '' });
         })
         .catch((error: unknown) => run.store.fail(error));
