@@ -42,8 +42,8 @@ class VideoSource {
   std::unique_ptr<Impl> impl_;
 };
 
-// The pictures of a folder or pattern, in the order of the frames; empty when `path` is a file, which
-// must then be a video. Throws InputError when there is nothing.
+// The pictures of a folder or pattern, in the order of the frames; empty when `path` is a file,
+// which must then be a video. Throws InputError when there is nothing.
 std::vector<std::filesystem::path> FootagePictures(const std::filesystem::path& path);
 
 // Order of names in which runs of digits compare as numbers.

@@ -390,7 +390,8 @@ Eigen::VectorXd CoupledFlock::Precondition(const Eigen::MatrixXd& shared_matrix,
   return y;
 }
 
-// Conjugate gradients until the residual, in the metric of the blocks, is a twentieth. False when a block is singular.
+// Conjugate gradients until the residual, in the metric of the blocks, is a twentieth. False when a
+// block is singular.
 bool CoupledFlock::Step(double damping, Eigen::VectorXd* step) {
   constexpr int kMostRounds = 40;
   constexpr double kTolerance = 0.05;
