@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "reconstruct/initialize/observability.h"
+#include "reconstruct/initialize/reference_axes.h"
 #include "reconstruct/initialize/scale_guess.h"
 #include "reconstruct/orientation.h"
 #include "simulate/core/check.h"
@@ -19,16 +20,17 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-// The user's knowledge in the axes of the camera.
-Knowledge InCameraAxes(const ReconstructOptions& options, const Camera& camera) {
+// The user's knowledge in the reference axes.
+Knowledge InReferenceAxes(const ReconstructOptions& options, const Camera& camera,
+                          const ReferenceAxes& axes) {
   Knowledge knowledge = options.knowledge;
   for (Anchor& anchor : knowledge.anchors) {
-    anchor.position = camera.CamFromWorld(anchor.frame) * anchor.position;
+    anchor.position = axes.RefFromWorld(anchor.frame) * anchor.position;
     Check(anchor.position.z > 0, "the anchor of id " + std::to_string(anchor.id) + " in frame " +
                                      std::to_string(anchor.frame) + " lies behind the camera");
   }
   if (camera.KnowsGravity()) {
-    knowledge.up_in_cam = camera.CamFromWorld(1).rotation * Vec3d{0, 0, 1};
+    knowledge.up_in_cam = axes.ref_from_world() * Vec3d{0, 0, 1};
   } else if (options.pitch_deg) {
     const double pitch = *options.pitch_deg * kDegree;
     knowledge.up_in_cam = Vec3d{0, -std::cos(pitch), std::sin(pitch)};
@@ -65,8 +67,9 @@ double MedianRelativeSd(const std::vector<SolvedPath>& paths, double scale_sd) {
   return *middle;
 }
 
-Trajectories Assemble(const Camera& camera, const Knowledge& knowledge, const Segments& segments,
-                      const std::vector<SolvedPath>& paths, double fps, bool has_sd) {
+Trajectories Assemble(const ReferenceAxes& axes, const Knowledge& knowledge,
+                      const Segments& segments, const std::vector<SolvedPath>& paths, double fps,
+                      bool has_sd) {
   const Vec3d up = knowledge.up_in_cam.value_or(Vec3d{0, -1, 0});
   std::map<Id, Trajectory> by_id;
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -77,17 +80,17 @@ Trajectories Assemble(const Camera& camera, const Knowledge& knowledge, const Se
       const SolvedPoint& p = paths[i][k];
       TrajectoryPoint point;
       point.frame = segment.sightings[k].frame;
-      const Rigid3d world_from_cam = camera.CamFromWorld(point.frame).Inverse();
-      point.position = world_from_cam * p.position_in_cam;
-      point.velocity = world_from_cam.rotation * p.velocity_in_cam;
+      const Rigid3d world_from_ref = axes.WorldFromRef(point.frame);
+      point.position = world_from_ref * p.position_in_cam;
+      point.velocity = world_from_ref.rotation * p.velocity_in_cam;
       const Rotation3d cam_from_body =
           WorldFromFlyingBody(p.velocity_in_cam, p.acceleration_in_cam, up);
-      const Vec3d forward = world_from_cam.rotation * (cam_from_body * Vec3d{1, 0, 0});
-      const Vec3d left = world_from_cam.rotation * (cam_from_body * Vec3d{0, 1, 0});
-      const Vec3d body_up = world_from_cam.rotation * (cam_from_body * Vec3d{0, 0, 1});
+      const Vec3d forward = world_from_ref.rotation * (cam_from_body * Vec3d{1, 0, 0});
+      const Vec3d left = world_from_ref.rotation * (cam_from_body * Vec3d{0, 1, 0});
+      const Vec3d body_up = world_from_ref.rotation * (cam_from_body * Vec3d{0, 0, 1});
       point.world_from_body =
           QuaternionFromRotation(Rotation3d::FromRows(forward, left, body_up).Inverse());
-      point.sd_depth = p.sd_log_depth * p.position_in_cam.z;
+      point.sd_depth = p.sd_log_depth * axes.DepthInCam(point.frame, p.position_in_cam);
       trajectory.points.push_back(point);
     }
   }
@@ -194,7 +197,9 @@ ReconstructMethod MethodOf(const std::string& name) {
 
 std::string LookAhead(const ReconstructOptions& options, const Tracks& tracks, const Camera& camera,
                       double fps) {
-  const Knowledge knowledge = InCameraAxes(options, camera);
+  const FrameSpan span = SpanOf(tracks);
+  const Knowledge knowledge =
+      InReferenceAxes(options, camera, ReferenceAxes(camera, span.first, span.last));
   const Segments segments =
       MakeSegments({.min_pixel_sd = options.batch.pixel_sd, .use_size = knowledge.use_size}, tracks,
                    camera, fps);
@@ -206,7 +211,9 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
                               const Progress& progress) {
   CheckKnowledge(options.knowledge);
   CheckOptions(options.batch);
-  const Knowledge knowledge = InCameraAxes(options, camera);
+  const FrameSpan span = SpanOf(tracks);
+  const ReferenceAxes axes(camera, span.first, span.last);
+  const Knowledge knowledge = InReferenceAxes(options, camera, axes);
   const bool is_batch =
       options.method == ReconstructMethod::kBatch || options.method == ReconstructMethod::kDynamics;
   const Segments segments = MakeSegments({.min_pixel_sd = options.batch.pixel_sd,
@@ -246,7 +253,7 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
     report.observability =
         "relative depth rests on constant speed and on the pull of the flock's middle; the method "
         "knows no error of its depths";
-    result.trajectories = Assemble(camera, knowledge, segments, cobyla.paths, fps, false);
+    result.trajectories = Assemble(axes, knowledge, segments, cobyla.paths, fps, false);
     return result;
   }
   BatchResult batch;
@@ -273,7 +280,7 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   WarnOfDisagreement(knowledge, batch.report, &report);
   report.observability = DescribeObservability(knowledge, segments, batch.paths, report);
   if (report.dynamics) report.observability += DescribeDynamics(*report.dynamics);
-  result.trajectories = Assemble(camera, knowledge, segments, batch.paths, fps, true);
+  result.trajectories = Assemble(axes, knowledge, segments, batch.paths, fps, true);
   return result;
 }
 

@@ -16,11 +16,12 @@ struct AccelerationError {
   static constexpr int kSize = 3;
   double rate = 1;             // knots per second
   double reference_depth = 1;  // [m]
+  CameraMotion camera = {};    // at the knot
 
   // c: control points k-1 .. k+1, each (X, Y, L).
   template <typename T>
   void operator()(const T* c, T* error) const {
-    const Vec3<T> a = AccelerationOverDepth(StateAtKnot(c, rate));
+    const Vec3<T> a = AccelerationOverDepth(StateAtKnot(c, rate), camera);
     error[0] = reference_depth * a.x;
     error[1] = reference_depth * a.y;
     error[2] = reference_depth * a.z;

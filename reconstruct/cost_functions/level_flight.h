@@ -15,15 +15,16 @@ namespace flocklift {
 
 struct LevelFlightError {
   static constexpr int kSize = 1;
-  double rate = 1;          // knots per second
-  double softening = 1e-3;  // speed over depth below which the angle fades out [1/s]
-  Vec3d up_in_cam;          // unit vector
+  double rate = 1;           // knots per second
+  double softening = 1e-3;   // speed over depth below which the angle fades out [1/s]
+  Vec3d up_in_cam;           // unit vector
+  CameraMotion camera = {};  // at the knot
 
   // c: control points k-1 .. k+1, each (X, Y, L).
   template <typename T>
   void operator()(const T* c, T* error) const {
     using std::sqrt;
-    const Vec3<T> w = VelocityOverDepth(StateAtKnot(c, rate));
+    const Vec3<T> w = VelocityOverDepth(StateAtKnot(c, rate), camera);
     error[0] = (w.x * up_in_cam.x + w.y * up_in_cam.y + w.z * up_in_cam.z) /
                sqrt(Dot(w, w) + softening * softening);
   }

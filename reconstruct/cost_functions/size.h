@@ -34,6 +34,7 @@ struct SizeError {
   double log_wingspan = 0;         // of the flock's mean [log m]
   std::optional<Vec3d> up_in_cam;  // unit vector, where gravity is known
   Vec3d curve{};                   // a / 9.81 m/s^2, camera frame
+  CameraMotion camera = {};        // at the knot
 
   // c: control points k-1 .. k+1, each (X, Y, L); log_trunk and log_up are logs of proportions.
   template <typename T>
@@ -42,7 +43,7 @@ struct SizeError {
     using std::exp;
     using std::log;
     const PathState<T> q = StateAtKnot(c, rate);
-    const Vec3<T> w = VelocityOverDepth(q);
+    const Vec3<T> w = VelocityOverDepth(q, camera);
     const T speed2 = Dot(w, w) + softening * softening;
     const auto seen = [&q](const Vec3<T>& a) {  // |P a|^2
       const T u = a.x - q.x * a.z;

@@ -16,15 +16,16 @@ namespace flocklift {
 
 struct SpeedError {
   static constexpr int kSize = 1;
-  double rate = 1;          // knots per second
-  double softening = 1e-3;  // eps: keeps the logarithm of a standstill finite [1/s]
+  double rate = 1;           // knots per second
+  double softening = 1e-3;   // eps: keeps the logarithm of a standstill finite [1/s]
+  CameraMotion camera = {};  // at the knot
 
   // c: control points k-1 .. k+1, each (X, Y, L); log_mean_speed in log m/s.
   template <typename T>
   void operator()(const T* c, const T& log_mean_speed, T* error) const {
     using std::log;
     const PathState<T> q = StateAtKnot(c, rate);
-    const Vec3<T> w = VelocityOverDepth(q);
+    const Vec3<T> w = VelocityOverDepth(q, camera);
     error[0] = q.l + 0.5 * log(Dot(w, w) + softening * softening) - log_mean_speed;
   }
 };

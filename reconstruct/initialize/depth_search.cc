@@ -32,8 +32,13 @@ std::vector<double> SearchDepth(const DepthSearchPriors& p, double interval,
   FLOCKLIFT_DCHECK(!steps.empty() && p.log_far > p.log_near);
   const int count = static_cast<int>(steps.size());
   // A slope of kMaxSlope is flight straight along the ray at 1.5 times the mean speed, seen from
-  // the flock's middle.
-  const double steepest = 1.5 * std::exp(p.log_speed - p.log_depth) * interval;
+  // the flock's middle, against the camera's own motion.
+  double fastest = 1.5 * std::exp(p.log_speed) * interval;
+  for (int k = 1; k < count; ++k) {
+    fastest = std::max(fastest, 1.5 * std::exp(p.log_speed) * interval +
+                                    Norm(steps[k].camera - steps[k - 1].camera));
+  }
+  const double steepest = fastest * std::exp(-p.log_depth);
   const double range = p.log_far - p.log_near;
   const double cell = std::max(steepest / kMaxSlope, range / (kMaxLevels - 1));
   const int levels = std::max(2, static_cast<int>(std::ceil(range / cell)) + 1);
@@ -51,7 +56,7 @@ std::vector<double> SearchDepth(const DepthSearchPriors& p, double interval,
       std::hypot(p.acceleration_sd / std::sqrt(share(p.acceleration_time)), grid_sd);
 
   const auto point = [&](int k, int level) {
-    return Vec3d{depth[level] * steps[k].ray.x, depth[level] * steps[k].ray.y, depth[level]};
+    return steps[k].camera + depth[level] * Vec3d{steps[k].ray.x, steps[k].ray.y, 1};
   };
   const auto unary = [&](int k, int level) {
     const double l = log_depth(level);

@@ -4,7 +4,7 @@
 // Where to start the depths of one animal: the best path on a grid of log depth, by dynamic
 // programming over (log z, its slope). Smoothness and speed alone leave a reversal of depth open,
 // and descent from a constant depth falls into the wrong one; the grid sees both. With points
-// p_k = exp(L_k) (x_k, y_k, 1) at steps of H seconds the cost is the sum of
+// p_k = camera_k + exp(L_k) (x_k, y_k, 1) at steps of H seconds the cost is the sum of
 //   ((log |p_{k+1} - p_k| / H - log speed) / speed_sd)^2 share      squares beyond 3 sd count
 //   (|p_{k+2} - 2 p_{k+1} + p_k| / (H^2 z_k / z_ref) / acceleration_sd)^2 share   linearly
 //   ((log size_k - log width + L_k) / size_sd)^2 share
@@ -35,6 +35,7 @@ struct DepthSearchPriors {
 struct DepthSearchStep {
   Vec2d ray;
   std::optional<double> log_size;  // of the angular size
+  Vec3d camera = {};               // the place that the ray comes from [m]
 };
 
 // Log depth at every step (steps of `interval` seconds); within the grid always.

@@ -22,8 +22,23 @@ double Quantile(std::vector<double> values, double share, double otherwise) {
   return *place;
 }
 
-// Image speeds of a segment over half a second or what there is of it [1/s].
-void AddImageSpeeds(const Segment& segment, std::vector<double>* speeds) {
+Vec3d PlaceAt(const Segments& segments, const Sighting& s) {
+  const auto frame = static_cast<std::size_t>(std::lround(s.time * segments.fps));
+  return segments.camera_places[std::min(frame, segments.camera_places.size() - 1)];
+}
+
+// How an animal moves over half a second or what there is of it, against the depth that it may
+// have: its velocity across is depth * ray + camera.
+struct Drift {
+  Vec2d ray;     // [1/s]
+  Vec2d camera;  // of a moving camera [m/s]
+
+  double Across(double depth) const {
+    return std::hypot(depth * ray.x + camera.x, depth * ray.y + camera.y);
+  }
+};
+
+void AddDrifts(const Segments& segments, const Segment& segment, std::vector<Drift>* drifts) {
   constexpr double kSpan = 0.5;
   const auto& s = segment.sightings;
   for (std::size_t begin = 0, end = 0; begin < s.size(); begin = end) {
@@ -31,7 +46,12 @@ void AddImageSpeeds(const Segment& segment, std::vector<double>* speeds) {
     const Sighting& last = s[std::min(end, s.size() - 1)];
     const double dt = last.time - s[begin].time;
     if (dt < 0.5 * kSpan) continue;
-    speeds->push_back(std::hypot(last.ray.x - s[begin].ray.x, last.ray.y - s[begin].ray.y) / dt);
+    Drift drift{{(last.ray.x - s[begin].ray.x) / dt, (last.ray.y - s[begin].ray.y) / dt}, {}};
+    if (!segments.camera_places.empty()) {
+      const Vec3d moved = (1 / dt) * (PlaceAt(segments, last) - PlaceAt(segments, s[begin]));
+      drift.camera = {moved.x - last.ray.x * moved.z, moved.y - last.ray.y * moved.z};
+    }
+    drifts->push_back(drift);
   }
 }
 
@@ -88,18 +108,39 @@ double LateralSpread(const Segments& segments) {
   return count > 0 ? std::sqrt(std::max(std::max(x, y) / count, 1e-8)) : 0.1;
 }
 
+double MedianSpeed(const std::vector<Drift>& drifts, double depth) {
+  std::vector<double> speeds;
+  for (const Drift& drift : drifts) speeds.push_back(drift.Across(depth));
+  return std::max(Quantile(std::move(speeds), 0.5, 0.1 * depth), 1e-6 * depth) / kShareAcross;
+}
+
+// The depth at which the flock flies at `speed`. A camera that moves makes more than one possible:
+// the nearest of the best.
+double LogDepthOfSpeed(const std::vector<Drift>& drifts, bool camera_moves, double speed) {
+  if (!camera_moves) return std::log(speed / MedianSpeed(drifts, 1));
+  double best = 0, least = 1e300;
+  for (double log_depth = 0; log_depth < 8; log_depth += 0.05) {
+    const double off = std::abs(std::log(MedianSpeed(drifts, std::exp(log_depth)) / speed));
+    if (off < least - 0.02) {
+      least = off;
+      best = log_depth;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 ScaleGuess GuessScale(const Knowledge& knowledge, const Segments& segments) {
-  std::vector<double> speeds, sizes, accelerations;
+  std::vector<Drift> drifts;
+  std::vector<double> sizes, accelerations;
   for (const Segment& segment : segments.segments) {
-    AddImageSpeeds(segment, &speeds);
+    AddDrifts(segments, segment, &drifts);
     AddImageAccelerations(segment, &accelerations);
     for (const Sighting& s : segment.sightings) {
       if (s.log_size) sizes.push_back(*s.log_size);
     }
   }
-  const double image_speed = std::max(Quantile(speeds, 0.5, 0.1), 1e-6);
   const double log_size = Quantile(sizes, 0.5, 0);
 
   ScaleGuess guess;
@@ -112,7 +153,8 @@ ScaleGuess GuessScale(const Knowledge& knowledge, const Segments& segments) {
   } else if (knowledge.near && knowledge.far) {
     guess.log_depth = 0.5 * std::log(*knowledge.near * *knowledge.far);
   } else if (knowledge.speed) {
-    guess.log_depth = std::log(knowledge.speed->mean * kShareAcross / image_speed);
+    guess.log_depth =
+        LogDepthOfSpeed(drifts, !segments.camera_places.empty(), knowledge.speed->mean);
   } else {
     double sum = 0;
     for (const Anchor& anchor : knowledge.anchors) {
@@ -121,7 +163,7 @@ ScaleGuess GuessScale(const Knowledge& knowledge, const Segments& segments) {
     guess.log_depth = sum / static_cast<double>(std::max<std::size_t>(1, knowledge.anchors.size()));
   }
   guess.log_speed = knowledge.speed ? std::log(knowledge.speed->mean)
-                                    : guess.log_depth + std::log(image_speed / kShareAcross);
+                                    : std::log(MedianSpeed(drifts, std::exp(guess.log_depth)));
   guess.log_width =
       knowledge.wingspan ? std::log(knowledge.wingspan->mean) : guess.log_depth + log_size;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reconstruct/initialize/reference_axes.h"
 #include "simulate/camera/projection.h"
 #include "simulate/core/check.h"
 #include "simulate/core/trajectory.h"
@@ -24,8 +25,18 @@ double Diagonal(double a, double b) { return std::sqrt(a * a + b * b); }
 
 bool IsMeasured(const Detection& d) { return d.confidence >= kMeasuredConfidence; }
 
+// Where the detection would be in the picture of a camera that does not turn [px].
+Vec2d SteadyPixel(const ReferenceAxes& axes, const Camera& camera, const Detection& d) {
+  const Vec2d pixel = d.box.Center();
+  if (!axes.turns()) return pixel;
+  const auto ray = RayThroughPixel(camera.intrinsics, pixel);
+  const auto turned = ray ? axes.Turn(d.frame, *ray) : std::nullopt;
+  if (!turned) return pixel;
+  return {turned->ray.x * camera.intrinsics.fx, turned->ray.y * camera.intrinsics.fy};
+}
+
 // Third differences over four successive measured frames; sd of white noise from their median.
-double EstimatePixelSd(const Tracks& tracks) {
+double EstimatePixelSd(const ReferenceAxes& axes, const Camera& camera, const Tracks& tracks) {
   std::vector<double> differences;
   for (const Tracklet& tracklet : tracks.tracklets) {
     const auto& d = tracklet.detections;
@@ -35,8 +46,8 @@ double EstimatePixelSd(const Tracks& tracks) {
           !IsMeasured(d[k - 3])) {
         continue;
       }
-      const Vec2d p[4] = {d[k - 3].box.Center(), d[k - 2].box.Center(), d[k - 1].box.Center(),
-                          d[k].box.Center()};
+      Vec2d p[4];
+      for (std::size_t a = 0; a < 4; ++a) p[a] = SteadyPixel(axes, camera, d[k - 3 + a]);
       differences.push_back(std::abs(p[3].x - 3 * p[2].x + 3 * p[1].x - p[0].x));
       differences.push_back(std::abs(p[3].y - 3 * p[2].y + 3 * p[1].y - p[0].y));
     }
@@ -221,24 +232,32 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
                       double fps) {
   Check(fps > 0, "reconstruct needs a positive number of frames per second");
   Segments result;
-  result.pixel_sd = std::max(EstimatePixelSd(tracks), options.min_pixel_sd);
+  result.fps = fps;
+  const FrameSpan span = SpanOf(tracks);
+  const ReferenceAxes axes(camera, span.first, span.last);
+  if (axes.moves()) {
+    for (int frame = span.first; frame <= span.last; ++frame) {
+      result.camera_places.push_back(axes.CameraPlace(frame));
+    }
+  }
+  result.pixel_sd = std::max(EstimatePixelSd(axes, camera, tracks), options.min_pixel_sd);
   const std::optional<double> box_over_shape = MedianBoxOverShape(tracks);
   result.has_shapes = box_over_shape.has_value();
-  const int first_frame = SpanOf(tracks).first;
   for (const Tracklet& tracklet : tracks.tracklets) {
     Segment segment{tracklet.id, {}};
     for (const Detection& d : tracklet.detections) {
       ++result.rows;
       const auto ray = RayThroughPixel(camera.intrinsics, d.box.Center());
-      if (!ray) {
+      const auto turned = ray ? axes.Turn(d.frame, *ray) : std::nullopt;
+      if (!turned) {
         ++result.unusable;
         continue;
       }
-      const double focal_px = LocalFocalLength(camera.intrinsics, *ray);
+      const double focal_px = LocalFocalLength(camera.intrinsics, *ray) / turned->magnification;
       Sighting sighting;
       sighting.frame = d.frame;
-      sighting.time = (d.frame - first_frame) / fps;
-      sighting.ray = *ray;
+      sighting.time = (d.frame - span.first) / fps;
+      sighting.ray = turned->ray;
       sighting.ray_sd = result.pixel_sd * (IsMeasured(d) ? 1 : options.interpolated_sd) / focal_px;
       const bool cut_off = IsCutOff(d.box, camera);
       if (cut_off) {

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Tracks as the solvers see them: rays instead of pixels, one segment per stretch that certainly
-// shows one animal. Rays are normalised coordinates (x/z, y/z) of the reference camera, lens
-// distortion taken out; sizes are angles, so that neither needs the focal length again.
+// shows one animal. Rays are normalised coordinates (x/z, y/z) in the reference axes
+// (reference_axes.h), lens distortion taken out; sizes are angles, so that neither needs the focal
+// length again.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_INITIALIZE_SEGMENTS_H_
 #define FLOCKLIFT_RECONSTRUCT_INITIALIZE_SEGMENTS_H_
@@ -17,7 +18,7 @@
 
 namespace flocklift {
 
-// One detection. A point at depth z on the ray has camera coordinates (z x, z y, z).
+// One detection. A point at depth z on the ray is (z x, z y, z) away from the camera.
 struct Sighting {
   int frame = 0;
   double time = 0;                 // since the first frame of the sequence [s]
@@ -45,8 +46,12 @@ struct Segments {
   double pixel_sd = 0;            // estimated noise of an image position [px]
   int cuts = 0;                   // where the image motion jumped
   int rows = 0;                   // detections in all segments
-  int unusable = 0;               // detections without a ray (beyond the fold of the distortion)
+  int unusable = 0;               // detections without a ray (beyond the fold of the distortion,
+                                  // or far beside where the camera looks on average)
   bool has_shapes = false;        // sizes come from shapes
+  // Places of a moving camera in every frame from the first on, reference axes [m]; empty: at rest.
+  std::vector<Vec3d> camera_places;
+  double fps = 0;  // frames per second of the places
 };
 
 // Every detection comes into exactly one segment. A jump of the motion that is over after a few
@@ -55,7 +60,7 @@ struct Segments {
 // differences of the image positions (white noise of sd s gives them sqrt(20) s, a smooth flight
 // next to nothing). The size is sqrt(width^2 + height^2) of the box or, where there is a shape,
 // that of its axes times the flock's median ratio of the two: the same for any direction of a
-// stretched body.
+// stretched body. The axes are ReferenceAxes over the frames of the tracks.
 Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const Camera& camera,
                       double fps);
 

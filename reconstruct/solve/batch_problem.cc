@@ -127,8 +127,10 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
   const double rate = 1 / model.knot_interval;
   const double time = (bird.first_knot + knot) * model.knot_interval;
   const double* c = &bird.path[3 * static_cast<std::size_t>(knot)];
+  const CameraMotion camera = model.camera.At(time);
 
-  const AccelerationError acceleration{.rate = rate, .reference_depth = bird.reference_depth};
+  const AccelerationError acceleration{
+      .rate = rate, .reference_depth = bird.reference_depth, .camera = camera};
   const auto a = Evaluate<3, 0>(
       derivatives, c, std::array<double, 0>{}, std::array<int, 0>{},
       [&](const auto* path, const auto*, auto* error) { acceleration(path, error); });
@@ -138,7 +140,7 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
     take(Term::kAcceleration, axis, feature);
   }
 
-  const SpeedError speed{.rate = rate, .softening = bird.softening};
+  const SpeedError speed{.rate = rate, .softening = bird.softening, .camera = camera};
   take(Term::kSpeed, 0,
        Evaluate<1, 1>(
            derivatives, c, std::array{bird.own[kOwnLogSpeed]}, std::array<int, 1>{kOwnLogSpeed},
@@ -146,7 +148,7 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
 
   if (model.use_climb && model.up_in_cam) {
     const LevelFlightError level{
-        .rate = rate, .softening = bird.softening, .up_in_cam = *model.up_in_cam};
+        .rate = rate, .softening = bird.softening, .up_in_cam = *model.up_in_cam, .camera = camera};
     take(
         Term::kClimb, 0,
         Evaluate<1, 0>(derivatives, c, std::array<double, 0>{}, std::array<int, 0>{},
@@ -158,7 +160,8 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
                          .log_size = *bird.size[knot],
                          .log_wingspan = model.log_wingspan,
                          .up_in_cam = model.up_in_cam,
-                         .curve = bird.curve[knot]};
+                         .curve = bird.curve[knot],
+                         .camera = camera};
     take(Term::kSize, 0,
          Evaluate<1, 5>(
              derivatives, c,

@@ -19,6 +19,7 @@
 #include "reconstruct/knowledge.h"
 #include "reconstruct/solve/arrow_system.h"
 #include "reconstruct/solve/batch_options.h"
+#include "reconstruct/solve/camera_path.h"
 #include "reconstruct/solve/flock_curve.h"
 
 namespace flocklift::internal {
@@ -97,6 +98,7 @@ struct Belief {
 // What stays fixed during one solve.
 struct BatchModel {
   double knot_interval = 0.1;  // [s]
+  CameraPath camera;
   Spreads spreads;
   double log_wingspan = 0;  // [log m]; 0 m^0 where unknown (the ratio is then free)
   std::optional<Vec3d> up_in_cam;

@@ -100,6 +100,7 @@ void StartDepth(const BatchModel& model, const ScaleGuess& guess, Bird* bird) {
   for (int k = 0; k < steps; ++k) {
     const double* c = &bird->path[3 * static_cast<std::size_t>(k * stride)];
     search[k].ray = {(c[0] + 4 * c[3] + c[6]) / 6, (c[1] + 4 * c[4] + c[7]) / 6};
+    search[k].camera = model.camera.At((bird->first_knot + k * stride) * model.knot_interval).place;
     double sum = 0;
     int count = 0;
     for (int knot = std::max(0, k * stride - stride / 2);
@@ -156,6 +157,7 @@ BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
                      const std::optional<Belief>& belief, double fps) {
   BatchModel model;
   model.knot_interval = std::max(options.knot_interval, 1 / fps);
+  model.camera = CameraPath(segments.camera_places, fps, model.knot_interval);
   Spreads& s = model.spreads;
   s.acceleration = {options.acceleration_sd, options.acceleration_time};
   if (options.estimate && guess.image_acceleration > 0) {

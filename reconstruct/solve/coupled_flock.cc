@@ -31,12 +31,16 @@ struct PathPoint {
 };
 
 template <typename T>
-PathPoint<T> PointOf(const T* path, double rate) {
+PathPoint<T> PointOf(const T* path, double rate, const CameraMotion& camera) {
   using std::exp;
   const PathState<T> q = StateAtKnot(path, rate);
   const T z = exp(q.l);
-  const Vec3<T> w = VelocityOverDepth(q);
-  return {{z * q.x, z * q.y, z}, {z * w.x, z * w.y, z * w.z}, AccelerationOverDepth(q), z};
+  const Vec3<T> w = VelocityOverDepth(q, camera);
+  const Vec3d& place = camera.place;
+  return {{z * q.x + place.x, z * q.y + place.y, z + place.z},
+          {z * w.x, z * w.y, z * w.z},
+          AccelerationOverDepth(q, camera),
+          z};
 }
 
 }  // namespace
@@ -74,7 +78,8 @@ std::vector<CoupledFlock::Knot> CoupledFlock::States() const {
   std::vector<Knot> states;
   for (const Bird& bird : birds_) {
     for (int k = 0; k < bird.knots; ++k) {
-      const auto p = PointOf(&bird.path[3 * static_cast<std::size_t>(k)], 1 / model_.knot_interval);
+      const auto p = PointOf(&bird.path[3 * static_cast<std::size_t>(k)], 1 / model_.knot_interval,
+                             CameraAt(bird, k));
       states.push_back({p.x, p.v, p.z * p.a_over_z, p.z});
     }
   }
@@ -133,6 +138,10 @@ Vec3d CoupledFlock::ErrorOf(std::size_t bird, int knot, const std::vector<Knot>&
   return (birds_[bird].reference_depth / s.z) * (s.a - force);
 }
 
+CameraMotion CoupledFlock::CameraAt(const Bird& bird, int knot) const {
+  return model_.camera.At((bird.first_knot + knot) * model_.knot_interval);
+}
+
 double CoupledFlock::Whitening(int knot) const {
   const double rho = noise.Correlation(model_.knot_interval);
   return 1 / (knot == 0 ? noise.sd : noise.StepSd(rho));
@@ -171,7 +180,7 @@ void CoupledFlock::Linearize() {
       for (int a = 0; a < 9; ++a) {
         path[static_cast<std::size_t>(a)] = Jet9(bird.path[static_cast<std::size_t>(3 * k + a)], a);
       }
-      const PathPoint<Jet9> p = PointOf(path.data(), rate);
+      const PathPoint<Jet9> p = PointOf(path.data(), rate, CameraAt(bird, k));
       const std::array<const Jet9*, 6> parts = {&p.x.x, &p.x.y, &p.x.z, &p.v.x, &p.v.y, &p.v.z};
       for (int a = 0; a < 6; ++a) line.state.row(a) = parts[static_cast<std::size_t>(a)]->v;
       const std::vector<Offset> offsets = OffsetsOf(i, k, states);

@@ -66,6 +66,7 @@ class CoupledFlock {
   std::vector<Knot> States() const;
   std::vector<Offset> OffsetsOf(std::size_t bird, int knot, const std::vector<Knot>& states) const;
   Vec3d ErrorOf(std::size_t bird, int knot, const std::vector<Knot>& states) const;
+  CameraMotion CameraAt(const Bird& bird, int knot) const;
   double Whitening(int knot) const;  // of the row that ends at this knot of its animal
   void Linearize();
   void AddOwnRows(std::size_t bird);

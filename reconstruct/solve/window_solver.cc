@@ -235,16 +235,22 @@ void UpdateCurves(State* state) {
   for (Bird& bird : state->birds) {
     for (std::size_t knot = 0; knot < bird.curve.size(); ++knot) {
       const PathState<double> q = StateAtKnot(&bird.path[3 * knot], rate);
-      bird.curve[knot] = std::exp(q.l) / kGravity * AccelerationOverDepth(q);
+      const double time =
+          (bird.first_knot + static_cast<double>(knot)) * state->model.knot_interval;
+      bird.curve[knot] =
+          std::exp(q.l) / kGravity * AccelerationOverDepth(q, state->model.camera.At(time));
     }
   }
 }
 
-SolvedPoint PointAt(const Bird& bird, const Bird::Place& place, double rate) {
+SolvedPoint PointAt(const BatchModel& model, const Bird& bird, const Bird::Place& place) {
+  const double rate = 1 / model.knot_interval;
   const double* c = &bird.path[3 * static_cast<std::size_t>(place.interval)];
   PathState<double> q{};
   const double s = place.weights[3] > 0 ? std::cbrt(6 * place.weights[3]) : 0;
-  const std::array<double, 4> curves = {1 - s, 3 * s - 2, 1 - 3 * s, s};
+  const std::array<double, 4> curves = SplineCurves(s);
+  const CameraMotion camera =
+      model.camera.At((bird.first_knot + place.interval + s) * model.knot_interval);
   for (int a = 0; a < 4; ++a) {
     q.x += place.weights[a] * c[3 * a];
     q.y += place.weights[a] * c[3 * a + 1];
@@ -258,15 +264,14 @@ SolvedPoint PointAt(const Bird& bird, const Bird::Place& place, double rate) {
   }
   const double z = std::exp(q.l);
   return {.position_in_cam = {z * q.x, z * q.y, z},
-          .velocity_in_cam = z * VelocityOverDepth(q),
-          .acceleration_in_cam = z * AccelerationOverDepth(q)};
+          .velocity_in_cam = z * VelocityOverDepth(q, camera),
+          .acceleration_in_cam = z * AccelerationOverDepth(q, camera)};
 }
 
 // Points with the posterior of their depths; the common scale's own sd comes from the posterior of
 // the mean log depth of all sightings. Returns the covariance of the flock's unknowns.
 Eigen::MatrixXd ReadOut(State* state, Solver* solver, BatchResult* result) {
   const Eigen::MatrixXd covariance = solver->Linearize();
-  const double rate = 1 / state->model.knot_interval;
   result->paths.resize(state->birds.size());
   double rows = 0;
   for (const Bird& bird : state->birds) rows += static_cast<double>(bird.places.size());
@@ -277,7 +282,7 @@ Eigen::MatrixXd ReadOut(State* state, Solver* solver, BatchResult* result) {
     const ArrowSystem::Posterior posterior = system.Covariance(covariance);
     Eigen::VectorXd weights = Eigen::VectorXd::Zero(bird.unknowns());
     for (const Bird::Place& place : bird.places) {
-      SolvedPoint point = PointAt(bird, place, rate);
+      SolvedPoint point = PointAt(state->model, bird, place);
       ResidualRow row;
       row.first = 3 * place.interval;
       for (int a = 0; a < 4; ++a) {

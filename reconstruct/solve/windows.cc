@@ -38,6 +38,16 @@ WindowPart PartOf(const Segments& segments, const Window& window, double fps, in
   part.first_frame = first_frame + skipped;
   part.segments.pixel_sd = segments.pixel_sd;
   part.segments.has_shapes = segments.has_shapes;
+  part.segments.fps = segments.fps;
+  if (static_cast<std::size_t>(skipped) < segments.camera_places.size()) {
+    part.segments.camera_places.assign(segments.camera_places.begin() + skipped,
+                                       segments.camera_places.end());
+    const double last_time = window.last ? 1e9 : window.end + window.fade;
+    const double frames = (last_time - skipped / fps) * fps + 2;
+    if (frames < static_cast<double>(part.segments.camera_places.size())) {
+      part.segments.camera_places.resize(static_cast<std::size_t>(frames));
+    }
+  }
   for (std::size_t i = 0; i < segments.segments.size(); ++i) {
     const auto& sightings = segments.segments[i].sightings;
     const double first_time = window.begin - window.fade, last_time = window.end + window.fade;

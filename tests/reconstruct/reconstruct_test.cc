@@ -287,6 +287,74 @@ TEST_F(Twin, FragmentsEnterAndLeave) {
   EXPECT_GT(least, result.trajectories.trajectories[0].points[5].sd_depth);
 }
 
+// A camera that is panned after the flock by hand, walks along and climbs: world positions come out
+// as with one that stands.
+TEST_F(Twin, MovingCameras) {
+  Camera moving = camera_;
+  moving.cam_from_world.reset();
+  for (int f = 1; f <= flock_.frames; ++f) {
+    const double t = (f - 1) / flock_.fps;
+    const Vec3d shake{0.1 * std::sin(7 * t), 0.2 * std::sin(5 * t), 0.2 * std::cos(9 * t)};
+    const Vec3d place{-8 + 3 * t + 0.1 * std::sin(2 * t), -45 - t, 1.7 + 0.4 * t};
+    moving.cam_from_world_per_frame.push_back(
+        LookAt(place, Vec3d{15 * std::sin(0.8 * t), 0, 15} + shake));
+  }
+  const Tracks seen = Observe(flock_, {}, truth_, moving);
+  const auto result = Reconstruct(TrueKnowledge(flock_), seen, moving, flock_.fps, 1, {});
+  const Scores scores = Score(truth_, result.trajectories, moving);
+  EXPECT_EQ(scores.rows, Rows(seen));
+  EXPECT_LT(scores.median, 0.03);
+  EXPECT_NEAR(scores.scale, 1, 0.1);
+  ExpectFinite(result.trajectories);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < truth_.trajectories.size(); ++i) {
+    for (std::size_t k = 10; k + 10 < truth_.trajectories[i].points.size(); k += 10) {
+      errors.push_back(Norm(result.trajectories.trajectories[i].points[k].velocity -
+                            truth_.trajectories[i].points[k].velocity));
+    }
+  }
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[errors.size() / 2], 0.15 * flock_.speed);
+}
+
+// A camera that flies along with a flock sees next to no image motion. Its own is known, and with
+// it the flock's; sizes tell the depths, two known positions their scale (the boxes here are
+// those of a body that looks the same from all sides).
+TEST(Reconstruct, CamerasMayFlyAlong) {
+  const FlockSpec flock{.speed_spread = 0.03};
+  Trajectories truth = CirclingFlock(flock);  // for its ids and frames
+  Camera moving = PinholeCamera(50, 1920, 1080);
+  for (int f = 1; f <= flock.frames; ++f) {
+    const double t = (f - 1) / flock.fps;
+    const Vec3d place{9 * t, -45, 10 + 0.5 * std::sin(t)};
+    moving.cam_from_world_per_frame.push_back(LookAt(place, place + Vec3d{0, 1, 0.1}));
+    for (Trajectory& path : truth.trajectories) {
+      const double i = static_cast<double>(path.id);
+      const double speed = flock.speed * (1 + 0.03 * std::sin(5 * i));
+      path.points[static_cast<std::size_t>(f - 1)].position = {
+          speed * t - 3 + 4 * std::sin(2 * i), 15 * std::sin(3 * i) + 0.5 * std::sin(0.8 * t + i),
+          14 + 5 * std::cos(4 * i) + 0.3 * std::sin(1.1 * t - i)};
+    }
+  }
+  ComputeVelocities(flock.fps, &truth);
+  const Tracks seen = Observe(flock, {}, truth, moving);
+  ReconstructOptions options;
+  for (const std::size_t i : {2, 7}) {
+    const TrajectoryPoint& p = truth.trajectories[i].points[70];
+    options.knowledge.anchors.push_back({p.frame, truth.trajectories[i].id, p.position, 0.3});
+  }
+  const auto result = Reconstruct(options, seen, moving, flock.fps, 1, {});
+  const Scores scores = Score(truth, result.trajectories, moving);
+  EXPECT_EQ(scores.rows, Rows(seen));
+  EXPECT_LT(scores.median, 0.08);  // a constant depth leaves 0.2
+  EXPECT_NEAR(scores.scale, 1, 0.1);
+  for (const Trajectory& path : result.trajectories.trajectories) {
+    for (std::size_t k = 0; k < path.points.size(); k += 30) {
+      EXPECT_NEAR(path.points[k].velocity.x, flock.speed, 0.15 * flock.speed);
+    }
+  }
+}
+
 // Tracks that make no sense still give numbers.
 TEST(Reconstruct, NothingIsNaN) {
   const Camera camera = WatchingCamera();

@@ -152,32 +152,39 @@ TEST(SizeError, WithoutGravityWingsAreAnywhereAcross) {
 
 TEST(Errors, DerivativesMatchNumericDifferences) {
   const auto path = SomePath();
-  const AccelerationError acceleration{.rate = 10, .reference_depth = 45};
-  ExpectGradient<3, 9>([&](const auto* p, auto* e) { acceleration(p, e); }, path);
-  const LevelFlightError level{
-      .rate = 10, .softening = 0.01, .up_in_cam = {0.1, -0.9, std::sqrt(1 - 0.82)}};
-  ExpectGradient<1, 9>([&](const auto* p, auto* e) { level(p, e); }, path);
+  for (const CameraMotion& camera :
+       {CameraMotion{},
+        CameraMotion{.moves = true, .velocity = {2, -1, 3}, .acceleration = {0.5, 1, -2}}}) {
+    const AccelerationError acceleration{.rate = 10, .reference_depth = 45, .camera = camera};
+    ExpectGradient<3, 9>([&](const auto* p, auto* e) { acceleration(p, e); }, path);
+    const LevelFlightError level{.rate = 10,
+                                 .softening = 0.01,
+                                 .up_in_cam = {0.1, -0.9, std::sqrt(1 - 0.82)},
+                                 .camera = camera};
+    ExpectGradient<1, 9>([&](const auto* p, auto* e) { level(p, e); }, path);
 
-  const SpeedError speed{.rate = 10, .softening = 0.01};
-  std::array<double, 10> with_speed{};
-  std::copy(path.begin(), path.end(), with_speed.begin());
-  with_speed[9] = 2.3;
-  ExpectGradient<1, 10>([&](const auto* p, auto* e) { speed(p, p[9], e); }, with_speed);
+    const SpeedError speed{.rate = 10, .softening = 0.01, .camera = camera};
+    std::array<double, 10> with_speed{};
+    std::copy(path.begin(), path.end(), with_speed.begin());
+    with_speed[9] = 2.3;
+    ExpectGradient<1, 10>([&](const auto* p, auto* e) { speed(p, p[9], e); }, with_speed);
 
-  for (const bool gravity : {true, false}) {
-    SizeError size{
-        .rate = 10, .softening = 0.01, .log_size = -4, .log_wingspan = -0.4, .up_in_cam = {}};
-    if (gravity) size.up_in_cam = level.up_in_cam;
-    if (gravity) size.curve = {0.3, -0.1, 0.4};
-    std::array<double, 14> with_size{};
-    std::copy(path.begin(), path.end(), with_size.begin());
-    with_size[9] = 0.02;
-    with_size[10] = -0.1;
-    with_size[11] = -1.1;
-    with_size[12] = -1.9;
-    with_size[13] = 0.7;
-    ExpectGradient<1, 14>(
-        [&](const auto* p, auto* e) { size(p, p[9], p[10], p[11], p[12], p[13], e); }, with_size);
+    for (const bool gravity : {true, false}) {
+      SizeError size{
+          .rate = 10, .softening = 0.01, .log_size = -4, .log_wingspan = -0.4, .up_in_cam = {}};
+      if (gravity) size.up_in_cam = level.up_in_cam;
+      size.camera = camera;
+      if (gravity) size.curve = {0.3, -0.1, 0.4};
+      std::array<double, 14> with_size{};
+      std::copy(path.begin(), path.end(), with_size.begin());
+      with_size[9] = 0.02;
+      with_size[10] = -0.1;
+      with_size[11] = -1.1;
+      with_size[12] = -1.9;
+      with_size[13] = 0.7;
+      ExpectGradient<1, 14>(
+          [&](const auto* p, auto* e) { size(p, p[9], p[10], p[11], p[12], p[13], e); }, with_size);
+    }
   }
 }
 

@@ -53,8 +53,13 @@ TEST(Path, VelocityAndAccelerationOfAHelix) {
   const double z = position(t).z;
   const Vec3d velocity{-3 * std::sin(t), 3 * std::cos(t), 2};
   const Vec3d acceleration{-3 * std::cos(t), -3 * std::sin(t), 0};
-  EXPECT_LT(Norm(z * VelocityOverDepth(q) - velocity), 1e-6);
-  EXPECT_LT(Norm(z * AccelerationOverDepth(q) - acceleration), 1e-5);
+  EXPECT_LT(Norm(z * VelocityOverDepth(q, {}) - velocity), 1e-6);
+  EXPECT_LT(Norm(z * AccelerationOverDepth(q, {}) - acceleration), 1e-5);
+  // The same seen from a camera that moves: the animal's own motion is the sum.
+  const CameraMotion camera{
+      .moves = true, .velocity = {1, -2, 0.5}, .acceleration = {0.3, 0.2, -0.1}};
+  EXPECT_LT(Norm(z * VelocityOverDepth(q, camera) - velocity - camera.velocity), 1e-6);
+  EXPECT_LT(Norm(z * AccelerationOverDepth(q, camera) - acceleration - camera.acceleration), 1e-5);
 }
 
 }  // namespace
