@@ -10,10 +10,6 @@
 namespace flocklift {
 namespace {
 
-bool FixesScale(const Knowledge& k) {
-  return k.speed || (k.wingspan && k.use_size) || (k.near && k.far) || !k.anchors.empty();
-}
-
 void CheckPositive(const std::optional<Uncertain>& number, const std::string& name) {
   if (!number) return;
   Check(number->mean > 0 && std::isfinite(number->mean), name + " must be a positive number");
@@ -22,6 +18,11 @@ void CheckPositive(const std::optional<Uncertain>& number, const std::string& na
 }
 
 }  // namespace
+
+bool FixesScale(const Knowledge& k) {
+  return k.speed || (k.wingspan && k.use_size) || (k.near && k.far) || !k.anchors.empty() ||
+         k.second_camera;
+}
 
 void CheckKnowledge(const Knowledge& knowledge) {
   CheckPositive(knowledge.speed, "speed");
@@ -36,7 +37,7 @@ void CheckKnowledge(const Knowledge& knowledge) {
   Check(FixesScale(knowledge),
         "a single camera does not see absolute scale (a flock twice as far, twice as large and "
         "twice as fast looks the same): give at least one of --speed, --wingspan (with sizes in "
-        "use), --near with --far, or --anchors");
+        "use), --near with --far, --anchors, or the tracks of a second camera");
 }
 
 std::string ScaleSources(const Knowledge& knowledge) {
@@ -48,6 +49,7 @@ std::string ScaleSources(const Knowledge& knowledge) {
   add(knowledge.wingspan && knowledge.use_size, "wingspan");
   add(knowledge.near && knowledge.far, "near/far");
   add(!knowledge.anchors.empty(), "anchors");
+  add(knowledge.second_camera, "second camera");
   return names;
 }
 

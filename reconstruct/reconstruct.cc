@@ -24,6 +24,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 Knowledge InReferenceAxes(const ReconstructOptions& options, const Camera& camera,
                           const ReferenceAxes& axes) {
   Knowledge knowledge = options.knowledge;
+  knowledge.second_camera = options.second_camera.has_value();
   for (Anchor& anchor : knowledge.anchors) {
     anchor.position = axes.RefFromWorld(anchor.frame) * anchor.position;
     Check(anchor.position.z > 0, "the anchor of id " + std::to_string(anchor.id) + " in frame " +
@@ -170,6 +171,15 @@ void WarnOfDisagreement(const Knowledge& knowledge, const BatchReport& batch,
       std::to_string(std::lround(sds * 10) % 10) + " sd); the scale is a compromise");
 }
 
+void WarnOfSecondCamera(const SecondCameraReport& second, std::vector<std::string>* warnings) {
+  const std::string counts =
+      std::to_string(second.matched) + " of the second camera's " + std::to_string(second.tracks);
+  if (2 * second.matched < second.tracks) {
+    warnings->push_back("only " + counts +
+                        " tracks show an animal of the first; check both poses and the clocks");
+  }
+}
+
 }  // namespace
 
 const char* NameOf(ReconstructMethod method) {
@@ -209,19 +219,28 @@ std::string LookAhead(const ReconstructOptions& options, const Tracks& tracks, c
 ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& tracks,
                               const Camera& camera, double fps, int threads,
                               const Progress& progress) {
-  CheckKnowledge(options.knowledge);
   CheckOptions(options.batch);
   const FrameSpan span = SpanOf(tracks);
   const ReferenceAxes axes(camera, span.first, span.last);
   const Knowledge knowledge = InReferenceAxes(options, camera, axes);
+  CheckKnowledge(knowledge);
   const bool is_batch =
       options.method == ReconstructMethod::kBatch || options.method == ReconstructMethod::kDynamics;
-  const Segments segments = MakeSegments({.min_pixel_sd = options.batch.pixel_sd,
-                                          .jump = is_batch ? options.batch.jump : 0,
-                                          .use_size = knowledge.use_size},
-                                         tracks, camera, fps);
+  const SegmentOptions segment_options{.min_pixel_sd = options.batch.pixel_sd,
+                                       .jump = is_batch ? options.batch.jump : 0,
+                                       .use_size = knowledge.use_size};
+  Segments segments = MakeSegments(segment_options, tracks, camera, fps);
   ReconstructResult result;
   ReconstructReport& report = result.report;
+  if (options.second_camera) {
+    Check(is_batch, "a second camera needs the method batch or dynamics");
+    report.second_camera =
+        AttachViews(*options.second_camera, segment_options, axes, span.first, fps, &segments);
+    WarnOfSecondCamera(*report.second_camera, &report.warnings);
+    Check(report.second_camera->views > 0 || FixesScale(options.knowledge),
+          "no track of the second camera shows an animal of the first, and nothing else fixes the "
+          "scale; check both poses and the clocks, or give --speed or --wingspan");
+  }
   report.method = options.method;
   report.segments = static_cast<int>(segments.segments.size());
   report.cuts = segments.cuts;

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "reconstruct/initialize/second_camera.h"
 #include "reconstruct/knowledge.h"
 #include "reconstruct/solve/batch.h"
 #include "reconstruct/solve/batch_options.h"
@@ -40,8 +41,9 @@ struct ReconstructOptions {
   std::optional<double> pitch_deg;  // optical axis above the horizon, for a camera without pose
   BatchOptions batch;
   DynamicsOptions dynamics;
-  CobylaOptions cobyla;             // speed, near and far follow `knowledge` where it has them
-  FirstDepths cobyla_first_depths;  // of the first frame, by id [m]
+  CobylaOptions cobyla;  // speed, near and far follow `knowledge` where it has them
+  std::optional<SecondCamera> second_camera;
+  FirstDepths cobyla_first_depths;        // of the first frame, by id [m]
   std::filesystem::path checkpoint = {};  // file that a killed batch goes on from; empty: none
 };
 
@@ -60,6 +62,7 @@ struct ReconstructReport {
   std::vector<TermStatistics> terms;
   std::vector<std::pair<std::string, double>> spreads;  // of the priors, as estimated
   std::optional<DynamicsReport> dynamics;
+  std::optional<SecondCameraReport> second_camera;
   std::vector<std::string> warnings;
 
   bool IsUsable() const { return segments > 0 && final_cost < 1e300; }

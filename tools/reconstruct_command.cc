@@ -60,13 +60,30 @@ void CheckAnchors(const fs::path& path, const std::vector<Anchor>& anchors, cons
   }
 }
 
-double FpsFor(const ReconstructCommand& command, const CommonOptions& common, const Tracks& tracks,
+double FpsFor(const fs::path& path, const CommonOptions& common, const Tracks& tracks,
               const Camera& camera) {
   if (common.fps) return *common.fps;
   if (tracks.fps) return *tracks.fps;
   if (camera.fps) return *camera.fps;
-  throw InputError(command.tracks.string(), 0, "says no frames per second, nor does the camera",
+  throw InputError(path.string(), 0, "says no frames per second, nor does the camera",
                    "give --fps, or `fps:` in the camera file");
+}
+
+SecondCamera ReadSecondCamera(const ReconstructCommand& command, const CommonOptions& common,
+                              const Camera& first) {
+  SecondCamera second;
+  second.tracks = ReadTracks(command.second_tracks);
+  second.camera = ReadCamera(command.second_camera);
+  for (const auto& [camera, path] :
+       {std::pair{&first, &command.camera},
+        std::pair{&std::as_const(second.camera), &command.second_camera}}) {
+    if (camera->KnowsGravity()) continue;
+    throw InputError(path->string(), 0, "has no pose, which two cameras need",
+                     "add `cam_from_world`, of both in one world");
+  }
+  second.fps = FpsFor(command.second_tracks, common, second.tracks, second.camera);
+  second.offset = command.second_offset;
+  return second;
 }
 
 nlohmann::ordered_json AsJson(const ReconstructReport& report) {
@@ -87,6 +104,12 @@ nlohmann::ordered_json AsJson(const ReconstructReport& report) {
                         {"prediction_error_batch", d.batch_error},
                         {"prediction_error_dynamics", d.dynamics_error}};
     for (const auto& [name, value] : d.forces) json["dynamics"]["forces"][name] = value;
+  }
+  if (report.second_camera) {
+    const SecondCameraReport& s = *report.second_camera;
+    json["second_camera"] = {{"tracks", s.tracks},       {"matched", s.matched},
+                             {"ambiguous", s.ambiguous}, {"views", s.views},
+                             {"offset_s", s.offset},     {"epipolar_error_px", s.error}};
   }
   for (const TermStatistics& term : report.terms) {
     json["residuals"].push_back({{"name", term.name},
@@ -116,6 +139,7 @@ Knowledge KnowledgeOf(const ReconstructCommand& command) {
   knowledge.far = command.far;
   knowledge.use_size = !command.no_size;
   if (!command.anchors.empty()) knowledge.anchors = ReadAnchors(command.anchors);
+  knowledge.second_camera = !command.second_tracks.empty();
   CheckKnowledge(knowledge);
   return knowledge;
 }
@@ -136,6 +160,7 @@ void RunReconstruct(const ReconstructCommand& command, const CommonOptions& comm
                      {"no-size", command.no_size}, {"output", command.output}};
   if (command.near) stage.options()["near"] = *command.near;
   if (command.far) stage.options()["far"] = *command.far;
+  if (command.second_offset) stage.options()["second-offset"] = *command.second_offset;
   if (command.pitch_deg) stage.options()["pitch"] = *command.pitch_deg;
   if (common.fps) stage.options()["fps"] = *common.fps;
   stage.options()["batch"] = OptionsAsJson(command.batch);
@@ -153,6 +178,10 @@ void RunReconstruct(const ReconstructCommand& command, const CommonOptions& comm
   if (!shapes.empty()) stage.AddInput(shapes);
   if (!command.anchors.empty()) stage.AddInput(command.anchors);
   if (!command.first_depths.empty()) stage.AddInput(command.first_depths);
+  if (!command.second_tracks.empty()) {
+    stage.AddInput(command.second_tracks);
+    stage.AddInput(command.second_camera);
+  }
   stage.AddOutput(command.output);
   if (stage.IsUpToDate()) return;
 
@@ -165,7 +194,10 @@ void RunReconstruct(const ReconstructCommand& command, const CommonOptions& comm
     options.cobyla_first_depths =
         ReadFirstDepths(command.first_depths, camera, SpanOf(tracks).first);
   }
-  const double fps = FpsFor(command, common, tracks, camera);
+  const double fps = FpsFor(command.tracks, common, tracks, camera);
+  if (!command.second_tracks.empty()) {
+    options.second_camera = ReadSecondCamera(command, common, camera);
+  }
   if (!common.quiet) fmt::print(stderr, "{}\n", LookAhead(options, tracks, camera, fps));
   progress = stage.BeginPhase("solve", command.method == "cobyla" || command.method == "lin-ceres"
                                            ? "frames"
@@ -203,6 +235,22 @@ void AddKnowledgeFlags(CLI::App& sub, ReconstructCommand* command) {
   sub.add_option("--anchors", command->anchors,
                  "file of known positions: frame,id,x,y,z,sd with a header")
       ->group(group);
+  CLI::Option* tracks = sub.add_option("--second-tracks", command->second_tracks,
+                                       "tracks of the same animals by a second camera (their ids "
+                                       "mean nothing; batch and dynamics)")
+                            ->group(group);
+  CLI::Option* camera =
+      sub.add_option("--second-camera", command->second_camera, "its camera file, pose included")
+          ->group(group)
+          ->needs(tracks);
+  tracks->needs(camera);
+  sub.add_option(
+         "--second-offset", command->second_offset,
+         "to add to its times, (frame - 1) / fps, to have the first camera's [s]; not given: "
+         "found within 2 s from how well the rays meet")
+      ->check(CLI::Range(-1e6, 1e6))
+      ->group(group)
+      ->needs(tracks);
   sub.add_flag("--no-size", command->no_size, "ignore boxes and shapes")->group(group);
   sub.add_option("--pitch", command->pitch_deg,
                  "the optical axis points so many degrees above the horizon, without roll (for a "
@@ -219,7 +267,9 @@ void AddReconstructCommand(CLI::App& app) {
       "  flocklift reconstruct tracks.csv --camera camera.yaml --wingspan 0.7,0.035 --speed 11,1\n"
       "  flocklift reconstruct tracks.csv --camera camera.yaml --preset jackdaw --no-size\n"
       "  flocklift reconstruct tracks.csv --camera camera.yaml --near 20 --far 80 --pitch 15\n"
-      "  flocklift reconstruct tracks.csv --camera camera.yaml --speed 11 --method cobyla",
+      "  flocklift reconstruct tracks.csv --camera camera.yaml --speed 11 --method cobyla\n"
+      "  flocklift reconstruct left.csv --camera left.yaml --second-tracks right.csv "
+      "--second-camera right.yaml",
       {.fps = true}, &RunReconstruct, &command);
   sub->add_option("tracks", command->tracks, "tracks (MOTChallenge CSV, or HDF5)")->required();
   sub->add_option("--camera", command->camera, "camera file")->required();

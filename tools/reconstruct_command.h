@@ -21,6 +21,8 @@ struct ReconstructCommand {
   std::filesystem::path shapes;        // empty: shapes.csv beside the tracks, when it is there
   std::filesystem::path anchors;       // empty: none
   std::filesystem::path first_depths;  // empty: none; trajectories for cobyla's first frame
+  std::filesystem::path second_tracks, second_camera;  // empty: none
+  std::optional<double> second_offset;                 // absent: found [s]
   std::string method = "batch";
   std::string preset;           // empty: none
   std::string speed, wingspan;  // "MEAN[,SD]"; empty: not known

@@ -64,6 +64,7 @@ std::vector<double> SearchDepth(const DepthSearchPriors& p, double interval,
     if (steps[k].log_size) {
       cost += size_share * Robust((*steps[k].log_size - p.log_width + l) / p.size_sd);
     }
+    if (steps[k].log_depth) cost += Robust((*steps[k].log_depth - l) / std::max(cell, 0.02));
     return cost;
   };
   const auto motion = [&](int k, int level, int slope) {

@@ -9,6 +9,7 @@
 //   (|p_{k+2} - 2 p_{k+1} + p_k| / (H^2 z_k / z_ref) / acceleration_sd)^2 share   linearly
 //   ((log size_k - log width + L_k) / size_sd)^2 share
 //   (climb / climb_sd)^2 share,  ((L_k - log_depth) / depth_sd)^2 share
+//   ((L_k - log depth by a second camera) / a grid step)^2
 // where share = H / (2 tau) turns correlated errors into as many independent ones.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_INITIALIZE_DEPTH_SEARCH_H_
@@ -34,8 +35,9 @@ struct DepthSearchPriors {
 // What is seen of the animal at one step of the grid.
 struct DepthSearchStep {
   Vec2d ray;
-  std::optional<double> log_size;  // of the angular size
-  Vec3d camera = {};               // the place that the ray comes from [m]
+  std::optional<double> log_size;                  // of the angular size
+  std::optional<double> log_depth = std::nullopt;  // by a second camera
+  Vec3d camera = {};                               // the place that the ray comes from [m]
 };
 
 // Log depth at every step (steps of `interval` seconds); within the grid always.

@@ -3,6 +3,7 @@
 
 #include "reconstruct/initialize/reference_axes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulate/core/check.h"
@@ -17,7 +18,7 @@ Vec3d PlaceInWorld(const Camera& camera, int frame) {
 }  // namespace
 
 ReferenceAxes::ReferenceAxes(const Camera& camera, int first_frame, int last_frame)
-    : camera_(camera), first_frame_(first_frame) {
+    : camera_(camera), first_frame_(first_frame), last_frame_(last_frame) {
   if (camera.cam_from_world_per_frame.empty() || last_frame < first_frame) {
     ref_from_world_ = camera.cam_from_world.value_or(Rigid3d{}).rotation;
     return;
@@ -47,6 +48,16 @@ ReferenceAxes::ReferenceAxes(const Camera& camera, int first_frame, int last_fra
 
 Rigid3d ReferenceAxes::WorldFromRef(int frame) const {
   return {ref_from_world_.Inverse(), PlaceInWorld(camera_, frame)};
+}
+
+Rigid3d ReferenceAxes::WorldFromRef(double frame) const {
+  if (!moves_) return WorldFromRef(first_frame_);
+  const double inside =
+      std::clamp(frame, static_cast<double>(first_frame_), static_cast<double>(last_frame_));
+  const int left = std::min(static_cast<int>(inside), last_frame_ - 1);
+  const Rigid3d before = WorldFromRef(left), after = WorldFromRef(left + 1);
+  const double share = inside - left;
+  return {before.rotation, (1 - share) * before.translation + share * after.translation};
 }
 
 Rigid3d ReferenceAxes::RefFromWorld(int frame) const { return WorldFromRef(frame).Inverse(); }

@@ -28,6 +28,8 @@ class ReferenceAxes {
 
   Rigid3d RefFromWorld(int frame) const;
   Rigid3d WorldFromRef(int frame) const;
+  // The same between frames, on the straight line from place to place; past the ends as there.
+  Rigid3d WorldFromRef(double frame) const;
   // The camera's place from that in the first frame, reference axes [m].
   Vec3d CameraPlace(int frame) const;
 
@@ -44,7 +46,7 @@ class ReferenceAxes {
 
  private:
   const Camera& camera_;
-  int first_frame_;
+  int first_frame_, last_frame_;
   bool moves_ = false, turns_ = false;
   Rotation3d ref_from_world_;
 };

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "reconstruct/initialize/triangulation.h"
+
 namespace flocklift {
 namespace {
 
@@ -129,6 +131,18 @@ double LogDepthOfSpeed(const std::vector<Drift>& drifts, bool camera_moves, doub
   return best;
 }
 
+std::vector<double> TriangulatedLogDepths(const Segments& segments) {
+  std::vector<double> depths;
+  for (const Segment& segment : segments.segments) {
+    for (const View& view : segment.views) {
+      const auto ray = RayAt(segment, view.time);
+      const auto depth = ray ? TriangulatedDepth(*ray, view) : std::nullopt;
+      if (depth) depths.push_back(std::log(*depth));
+    }
+  }
+  return depths;
+}
+
 }  // namespace
 
 ScaleGuess GuessScale(const Knowledge& knowledge, const Segments& segments) {
@@ -148,7 +162,10 @@ ScaleGuess GuessScale(const Knowledge& knowledge, const Segments& segments) {
   // The median of a squared normal is 0.455 of its variance.
   guess.image_acceleration =
       std::sqrt(std::max(0.0, Quantile(std::move(accelerations), 0.5, 0) / 0.455));
-  if (knowledge.wingspan && !sizes.empty()) {
+  const std::vector<double> met = TriangulatedLogDepths(segments);
+  if (!met.empty()) {
+    guess.log_depth = Quantile(met, 0.5, 0);
+  } else if (knowledge.wingspan && !sizes.empty()) {
     guess.log_depth = std::log(knowledge.wingspan->mean) - log_size;
   } else if (knowledge.near && knowledge.far) {
     guess.log_depth = 0.5 * std::log(*knowledge.near * *knowledge.far);
@@ -174,6 +191,10 @@ ScaleGuess GuessScale(const Knowledge& knowledge, const Segments& segments) {
   if (!sizes.empty() && knowledge.wingspan) {
     guess.log_near = std::min(guess.log_near, guess.log_width - Quantile(sizes, 0.98, 0) - 0.2);
     guess.log_far = std::max(guess.log_far, guess.log_width - Quantile(sizes, 0.02, 0) + 0.2);
+  }
+  if (!met.empty()) {
+    guess.log_near = std::min(guess.log_near, Quantile(met, 0.02, 0) - 0.2);
+    guess.log_far = std::max(guess.log_far, Quantile(met, 0.98, 0) + 0.2);
   }
   if (knowledge.near) guess.log_near = std::log(*knowledge.near);
   if (knowledge.far) guess.log_far = std::log(*knowledge.far);

@@ -22,8 +22,8 @@ struct ScaleGuess {
   double log_near = 0, log_far = 0;  // bounds for searching [log m]
 };
 
-// The wingspan (with size in use) fixes the depth when known, then near and far, then the speed,
-// then the anchors. Animals whose image hardly moves are no evidence of speed.
+// A second camera fixes the depth where there is one, then the wingspan (with size in use), near
+// and far, the speed, the anchors. Animals whose image hardly moves are no evidence of speed.
 ScaleGuess GuessScale(const Knowledge& knowledge, const Segments& segments);
 
 }  // namespace flocklift

@@ -14,6 +14,7 @@
 
 #include "simulate/camera/camera.h"
 #include "simulate/core/observations.h"
+#include "simulate/core/rigid3.h"
 #include "simulate/core/vec3.h"
 
 namespace flocklift {
@@ -27,10 +28,19 @@ struct Sighting {
   std::optional<double> log_size;  // log of the angular size; absent on interpolated rows
 };
 
+// What a second camera sees of the animal (second_camera.h).
+struct View {
+  double time = 0;        // as of sightings [s]
+  Rigid3d view_from_ref;  // to axes of the second camera, from the first one's place at that time
+  Vec2d ray;              // (x/z, y/z) in those axes
+  double ray_sd = 1;      // of either coordinate
+};
+
 // One animal without a cut, by increasing frame. Several segments may carry the same id.
 struct Segment {
   Id id = 0;
   std::vector<Sighting> sightings;
+  std::vector<View> views = {};  // by time
 };
 
 struct SegmentOptions {

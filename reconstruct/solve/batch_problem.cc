@@ -10,9 +10,9 @@
 
 #include "reconstruct/cost_functions/acceleration.h"
 #include "reconstruct/cost_functions/level_flight.h"
-#include "reconstruct/cost_functions/reprojection.h"
 #include "reconstruct/cost_functions/size.h"
 #include "reconstruct/cost_functions/speed.h"
+#include "reconstruct/solve/point_rows.h"
 
 namespace flocklift::internal {
 namespace {
@@ -183,79 +183,6 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
   }
 }
 
-void TakeReprojections(const Bird& bird, const RowSink& take) {
-  for (std::size_t k = 0; k < bird.places.size(); ++k) {
-    const Bird::Place& place = bird.places[k];
-    const Sighting& sighting = bird.segment->sightings[k];
-    const ReprojectionError error{place.weights, sighting.ray, sighting.ray_sd};
-    std::array<double, 2> residuals;
-    error(&bird.path[3 * static_cast<std::size_t>(place.interval)], residuals.data());
-    for (int axis = 0; axis < 2; ++axis) {
-      ResidualRow row;
-      row.first = 3 * place.interval;
-      row.residual = residuals[axis];
-      for (int a = 0; a < 4; ++a) row.path[3 * a + axis] = place.weights[a] / sighting.ray_sd;
-      take(Term::kReprojection, row);
-    }
-  }
-}
-
-void TakeAnchors(const Bird& bird, const RowSink& take) {
-  using Jet = ceres::Jet<double, 12>;
-  for (const Bird::Known& known : bird.anchors) {
-    std::array<Jet, 3> q;
-    for (int a = 0; a < 12; ++a) {
-      q[a % 3] += known.place.weights[a / 3] *
-                  Jet(bird.path[3 * static_cast<std::size_t>(known.place.interval) + a], a);
-    }
-    const Jet z = exp(q[2]);
-    const std::array<Jet, 3> error = {z * q[0] - known.position_in_cam.x,
-                                      z * q[1] - known.position_in_cam.y,
-                                      z - known.position_in_cam.z};
-    for (const Jet& e : error) {
-      ResidualRow row;
-      row.first = 3 * known.place.interval;
-      row.residual = e.a / known.sd;
-      for (int a = 0; a < 12; ++a) row.path[a] = e.v[a] / known.sd;
-      take(Term::kAnchor, row);
-    }
-  }
-}
-
-// Soft walls at near and far.
-void TakeBounds(const BatchModel& model, const Bird& bird, const RowSink& take) {
-  constexpr double kSoftness = 0.02;  // in log depth
-  if (!model.log_near && !model.log_far) return;
-  for (int knot = 0; knot < bird.knots; ++knot) {
-    const double* c = &bird.path[3 * static_cast<std::size_t>(knot)];
-    const double l = (c[2] + 4 * c[5] + c[8]) / 6;
-    double beyond = 0;
-    if (model.log_near && l < *model.log_near) beyond = l - *model.log_near;
-    if (model.log_far && l > *model.log_far) beyond = l - *model.log_far;
-    if (beyond == 0) continue;
-    ResidualRow row;
-    row.first = 3 * knot;
-    row.residual = beyond / kSoftness;
-    row.path[2] = row.path[8] = 1 / (6 * kSoftness);
-    row.path[5] = 4 / (6 * kSoftness);
-    take(Term::kBounds, row);
-  }
-}
-
-// Nobody flies at several times the flock's speed: keeps the velocity of the shortest sighting
-// proper. Linear in the control points.
-void TakeAnyVelocity(const BatchModel& model, const Bird& bird, const RowSink& take) {
-  const double sd = 60 * bird.softening;  // the softening is a twentieth of the speed
-  const double scale = 0.5 / (model.knot_interval * sd);
-  for (int axis = 0; axis < 3; ++axis) {
-    ResidualRow row;
-    row.residual = scale * (bird.path[6 + axis] - bird.path[axis]);
-    row.path[axis] = -scale;
-    row.path[6 + axis] = scale;
-    take(Term::kAnyVelocity, row);
-  }
-}
-
 void TakeIndividual(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                     const RowSink& take) {
   ResidualRow speed;
@@ -271,66 +198,10 @@ void TakeIndividual(const BatchModel& model, const Bird& bird, const Eigen::Vect
 
 }  // namespace
 
-const char* NameOf(Term term) {
-  switch (term) {
-    case Term::kReprojection:
-      return "reprojection";
-    case Term::kAcceleration:
-      return "acceleration";
-    case Term::kSpeed:
-      return "speed";
-    case Term::kSize:
-      return "size";
-    case Term::kClimb:
-      return "level flight";
-    case Term::kDepth:
-      return "shared depth";
-    case Term::kSpeedSpread:
-      return "speed between animals";
-    case Term::kSizeSpread:
-      return "size between animals";
-    case Term::kAnchor:
-      return "anchors";
-    case Term::kBounds:
-      return "near and far";
-    case Term::kAnyVelocity:
-      return "any velocity";
-    case Term::kTurn:
-      return "common acceleration";
-  }
-  return "";
-}
-
-double HuberLimit(Term term) {
-  switch (term) {
-    case Term::kReprojection:
-    case Term::kAcceleration:
-    case Term::kSpeed:
-    case Term::kClimb:
-    case Term::kAnchor:
-      return 3;
-    case Term::kSize:
-      return 2;
-    default:
-      return 0;
-  }
-}
-
-double RobustCost(Term term, double residual) {
-  const double limit = HuberLimit(term);
-  const double a = std::abs(residual);
-  return limit == 0 || a <= limit ? 0.5 * a * a : limit * (a - 0.5 * limit);
-}
-
-double RobustWeight(Term term, double residual) {
-  const double limit = HuberLimit(term);
-  const double a = std::abs(residual);
-  return limit == 0 || a <= limit ? 1 : limit / a;
-}
-
 void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                 bool derivatives, const RowSink& take) {
   TakeReprojections(bird, take);
+  TakeViews(bird, take);
   const Spreads& s = model.spreads;
   const double dt = model.knot_interval;
   std::array<MarkovRows, 3> acceleration = {MarkovRows(Term::kAcceleration, s.acceleration, dt),

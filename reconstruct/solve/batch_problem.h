@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,6 +20,7 @@
 #include "reconstruct/solve/batch_options.h"
 #include "reconstruct/solve/camera_path.h"
 #include "reconstruct/solve/flock_curve.h"
+#include "reconstruct/solve/terms.h"
 
 namespace flocklift::internal {
 
@@ -31,26 +31,6 @@ inline constexpr double kDepthKnotTime = 2;  // [s]
 inline constexpr double kTurnKnotTime = 2;   // [s]
 // An animal's own unknowns.
 inline constexpr int kOwnLogSpeed = 0, kOwnSizeBias = 1, kOwnUnknowns = 2;
-
-enum class Term {
-  kReprojection,
-  kAcceleration,
-  kSpeed,
-  kSize,
-  kClimb,
-  kDepth,
-  kSpeedSpread,
-  kSizeSpread,
-  kAnchor,
-  kBounds,
-  kAnyVelocity,
-  kTurn,
-};
-inline constexpr int kTermCount = 12;
-const char* NameOf(Term term);
-
-// Residuals beyond this many sds count linearly (Huber's loss); 0: never.
-double HuberLimit(Term term);
 
 // The spreads of the priors; estimated while solving.
 struct Spreads {
@@ -76,7 +56,8 @@ struct Bird {
     std::array<double, 4> weights{};
     std::array<double, 4> slopes{};  // by time
   };
-  std::vector<Place> places;  // of the sightings
+  std::vector<Place> places;       // of the sightings
+  std::vector<Place> view_places;  // of the second camera's views
   struct Known {
     Place place;
     Vec3d position_in_cam;
@@ -113,8 +94,6 @@ struct BatchModel {
   int shared() const { return turn.end(); }
 };
 
-using RowSink = std::function<void(Term, const ResidualRow&)>;
-
 // Hands every whitened residual of one bird to `take`, with derivatives when asked.
 void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                 bool derivatives, const RowSink& take);
@@ -122,10 +101,6 @@ void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd
 // The unwhitened errors e of the Markov terms, one row each, at every `stride`-th knot.
 void ForEachError(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                   int stride, const RowSink& take);
-
-// Robust cost of one residual, and its weight in the normal equations.
-double RobustCost(Term term, double residual);
-double RobustWeight(Term term, double residual);
 
 double CostOf(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared);
 

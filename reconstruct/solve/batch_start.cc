@@ -8,6 +8,7 @@
 
 #include "reconstruct/cost_functions/path.h"
 #include "reconstruct/initialize/depth_search.h"
+#include "reconstruct/initialize/triangulation.h"
 
 namespace flocklift::internal {
 namespace {
@@ -110,6 +111,19 @@ void StartDepth(const BatchModel& model, const ScaleGuess& guess, Bird* bird) {
       ++count;
     }
     if (count > 0) search[k].log_size = sum / count;
+  }
+  std::vector<int> met(search.size());
+  for (const View& view : bird->segment->views) {
+    const auto ray = RayAt(*bird->segment, view.time);
+    const auto depth = ray ? TriangulatedDepth(*ray, view) : std::nullopt;
+    if (!depth) continue;
+    const double knot = view.time / model.knot_interval - bird->first_knot;
+    const int k = std::clamp(static_cast<int>(std::lround(knot / stride)), 0, steps - 1);
+    search[k].log_depth = search[k].log_depth.value_or(0) + std::log(*depth);
+    ++met[k];
+  }
+  for (std::size_t k = 0; k < search.size(); ++k) {
+    if (search[k].log_depth) *search[k].log_depth /= met[k];
   }
   const Spreads& s = model.spreads;
   DepthSearchPriors priors{
@@ -258,6 +272,8 @@ Bird StartBird(const BatchModel& model, const Knowledge& knowledge, const ScaleG
   bird.reference_depth = std::exp(guess.log_depth);
   bird.softening = 0.05 * std::exp(guess.log_speed - guess.log_depth);
   for (const Sighting& s : sightings) bird.places.push_back(PlaceAt(model, bird, s.time));
+  for (const View& view : segment.views)
+    bird.view_places.push_back(PlaceAt(model, bird, view.time));
   for (const Anchor& anchor : knowledge.anchors) {
     if (anchor.id != segment.id || anchor.frame < sightings.front().frame ||
         anchor.frame > sightings.back().frame) {

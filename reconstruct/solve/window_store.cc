@@ -152,8 +152,14 @@ std::uint64_t FingerprintOf(const BatchOptions& options, const Knowledge& knowle
     hash.Add(anchor.position);
     hash.Add(anchor.sd);
   }
+  for (const Vec3d& place : segments.camera_places) hash.Add(place);
   for (const Segment& segment : segments.segments) {
     hash.Add(segment.id);
+    for (const View& view : segment.views) {
+      for (const double x : {view.time, view.ray.x, view.ray.y, view.ray_sd}) hash.Add(x);
+      for (const double x : view.view_from_ref.rotation.m) hash.Add(x);
+      hash.Add(view.view_from_ref.translation);
+    }
     for (const Sighting& s : segment.sightings) {
       hash.Add(s.frame);
       hash.Add(s.ray.x);

@@ -65,6 +65,13 @@ WindowPart PartOf(const Segments& segments, const Window& window, double fps, in
     part.segments.segments.push_back({segments.segments[i].id, {begin, end}});
     for (Sighting& s : part.segments.segments.back().sightings) s.time -= skipped / fps;
     part.segments.rows += static_cast<int>(end - begin);
+    Segment& segment = part.segments.segments.back();
+    for (View view : segments.segments[i].views) {
+      view.time -= skipped / fps;
+      if (view.time < segment.sightings.front().time) continue;
+      if (view.time > segment.sightings.back().time) break;
+      segment.views.push_back(view);
+    }
   }
   return part;
 }

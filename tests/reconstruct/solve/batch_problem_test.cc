@@ -28,6 +28,15 @@ class BatchProblemTest : public testing::Test {
     knowledge_.far = 45;
     knowledge_.up_in_cam = camera.cam_from_world->rotation * Vec3d{0, 0, 1};
     knowledge_.anchors = {{12, 2, {1, 2, 43}, 2}};
+    for (const int k : {5, 17}) {  // a second camera 20 m to the right that looks to the left
+      View view;
+      view.time = segments_.segments[1].sightings[static_cast<std::size_t>(k)].time + 0.01;
+      view.view_from_ref = {Rotation3d::FromRows({0.8, 0, 0.6}, {0, 1, 0}, {-0.6, 0, 0.8}),
+                            {-16, 0.3, 12}};
+      view.ray = {0.2, -0.1};
+      view.ray_sd = 0.1;
+      segments_.segments[1].views.push_back(view);
+    }
     const ScaleGuess guess = GuessScale(knowledge_, segments_);
     BatchOptions options;
     options.flock_turn = true;
@@ -141,9 +150,10 @@ TEST_F(BatchProblemTest, PriorsOfTheFlockMatchNumericDifferences) {
 }
 
 // A scene twice as far, twice as fast, of animals twice as large looks the same: but for the priors
-// of the scale, every residual is what it was.
+// of the scale and a second camera, every residual is what it was.
 TEST_F(BatchProblemTest, TheImageKnowsNoScale) {
   bird_.anchors.clear();
+  bird_.view_places.clear();
   model_.log_near = model_.log_far = std::nullopt;
   const std::vector<double> before = Residuals();
   const double shift = std::log(2.0);
