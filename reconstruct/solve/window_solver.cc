@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "reconstruct/cost_functions/path.h"
+#include "reconstruct/solve/batch_solver.h"
 #include "reconstruct/solve/batch_start.h"
 #include "reconstruct/solve/spread_estimator.h"
 #include "simulate/core/parallel_for.h"
@@ -19,182 +19,8 @@
 namespace flocklift::internal {
 namespace {
 
-constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-9, kMostDamping = 1e9;
-
-// Everything that moves while solving.
-struct State {
-  BatchModel model;
-  std::vector<Bird> birds;
-  Eigen::VectorXd shared;
-};
-
-// What one animal needs for a step.
-struct Workspace {
-  ArrowSystem system;
-  double damping = kFirstDamping;
-  double cost = 0;
-  Eigen::MatrixXd shared_matrix;
-  Eigen::VectorXd shared_gradient;
-  Bird candidate;
-  double candidate_cost = 0;
-  bool moved = false;
-};
-
-class Solver {
- public:
-  Solver(State* state, int threads) : state_(*state), pool_(threads) {
-    for (const Bird& bird : state_.birds) {
-      work_.push_back({.system = ArrowSystem(bird.unknowns(), kOwnUnknowns, state_.model.shared()),
-                       .shared_matrix = {},
-                       .shared_gradient = {},
-                       .candidate = bird});
-    }
-  }
-
-  // Damped Gauss-Newton until the cost stands still. Returns whether it did.
-  bool Minimize(int max_iterations, BatchReport* report, const std::function<void()>& on_iteration);
-
-  double Cost() {
-    ForEachBird([this](std::size_t i) {
-      work_[i].cost = CostOf(state_.model, state_.birds[i], state_.shared);
-    });
-    double cost = SharedPriors(state_.model, state_.shared, nullptr, nullptr);
-    for (const Workspace& w : work_) cost += w.cost;
-    return cost;
-  }
-
-  // Normal equations at the present state, undamped. Returns the covariance of the flock's
-  // unknowns.
-  Eigen::MatrixXd Linearize() {
-    Assemble();
-    Eigen::MatrixXd matrix;
-    Eigen::VectorXd gradient;
-    Reduce(0, &matrix, &gradient);
-    return matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
-  }
-
-  Workspace& work(std::size_t i) { return work_[i]; }
-
-  template <typename Function>
-  void ForEachBird(const Function& fn) {
-    pool_.For(0, static_cast<std::int64_t>(work_.size()), 1,
-              [&fn](std::int64_t first, std::int64_t last) {
-                for (std::int64_t i = first; i < last; ++i) fn(static_cast<std::size_t>(i));
-              });
-  }
-
- private:
-  void Assemble() {
-    ForEachBird([this](std::size_t i) {
-      ArrowSystem& system = work_[i].system;
-      system.SetZero();
-      ForEachRow(state_.model, state_.birds[i], state_.shared, true,
-                 [&system](Term term, const ResidualRow& row) {
-                   system.Add(row, RobustWeight(term, row.residual));
-                 });
-    });
-  }
-
-  // Eliminates every animal; an animal whose system is singular is damped until it is not.
-  void Reduce(double damping_factor, Eigen::MatrixXd* matrix, Eigen::VectorXd* gradient) {
-    const int size = state_.model.shared();
-    ForEachBird([&](std::size_t i) {
-      Workspace& w = work_[i];
-      for (double damping = damping_factor * w.damping;; damping = std::max(10 * damping, 1e-9)) {
-        w.shared_matrix.setZero(size, size);
-        w.shared_gradient.setZero(size);
-        if (w.system.Reduce(damping, &w.shared_matrix, &w.shared_gradient)) break;
-        if (damping > kMostDamping) {  // nothing is known of this animal: leave it out
-          w.system.SetIdentity();
-        }
-      }
-    });
-    matrix->setZero(size, size);
-    gradient->setZero(size);
-    SharedPriors(state_.model, state_.shared, matrix, gradient);
-    for (const Workspace& w : work_) {  // in this order at any number of threads
-      *matrix += w.shared_matrix;
-      *gradient += w.shared_gradient;
-    }
-  }
-
-  State& state_;
-  ThreadPool pool_;
-  std::vector<Workspace> work_;
-};
-
-bool Solver::Minimize(int max_iterations, BatchReport* report,
-                      const std::function<void()>& on_iteration) {
-  constexpr double kEnough = 2e-3, kEnoughRelative = 1e-8;  // fall of the cost that counts
-  double cost = Cost();
-  for (std::size_t i = 0; i < work_.size(); ++i) work_[i].candidate = state_.birds[i];
-  int still = 0;
-  for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    if (on_iteration) on_iteration();
-    ++report->iterations;
-    Assemble();
-    Eigen::MatrixXd matrix;
-    Eigen::VectorXd gradient;
-    Reduce(1, &matrix, &gradient);
-    const Eigen::VectorXd step = -matrix.llt().solve(gradient);
-    if (!step.allFinite()) return false;
-    // A step of the flock's unknowns that is too far for the model is halved; each animal takes
-    // its own part of the step only when that helps it.
-    bool accepted = false;
-    for (double share = 1; share > 0.02 && !accepted; share *= 0.4) {
-      const Eigen::VectorXd shared_step = share * step;
-      const Eigen::VectorXd shared = state_.shared + shared_step;
-      ForEachBird([&](std::size_t i) {
-        Workspace& w = work_[i];
-        const Bird& bird = state_.birds[i];
-        const Eigen::VectorXd own_step = w.system.BackSubstitute(shared_step);
-        w.candidate.path = bird.path;
-        w.candidate.own = bird.own;
-        w.candidate_cost = std::numeric_limits<double>::infinity();
-        if (own_step.allFinite()) {
-          for (int k = 0; k < bird.unknowns(); ++k) w.candidate.path[k] += own_step[k];
-          for (int k = 0; k < kOwnUnknowns; ++k) {
-            w.candidate.own[k] += own_step[bird.unknowns() + k];
-          }
-          w.candidate_cost = CostOf(state_.model, w.candidate, shared);
-        }
-        w.moved = w.candidate_cost < std::numeric_limits<double>::infinity();
-        if (!(w.candidate_cost < w.cost)) {
-          const double stay = CostOf(state_.model, bird, shared);
-          if (!(w.candidate_cost < stay)) {
-            w.moved = false;
-            w.candidate_cost = stay;
-          }
-        }
-      });
-      double candidate = SharedPriors(state_.model, shared, nullptr, nullptr);
-      for (const Workspace& w : work_) candidate += w.candidate_cost;
-      if (!(candidate < cost)) continue;
-      accepted = true;
-      state_.shared = shared;
-      for (std::size_t i = 0; i < work_.size(); ++i) {
-        Workspace& w = work_[i];
-        if (w.moved) {
-          std::swap(state_.birds[i].path, w.candidate.path);
-          state_.birds[i].own = w.candidate.own;
-        }
-        w.cost = w.candidate_cost;
-        w.damping = std::clamp(w.damping * (w.moved ? 0.2 : 8), kLeastDamping, kMostDamping);
-      }
-      still = cost - candidate < kEnough + kEnoughRelative * cost ? still + 1 : 0;
-      cost = candidate;
-    }
-    if (!accepted) {
-      ++still;
-      for (Workspace& w : work_) w.damping = std::min(w.damping * 10, kMostDamping);
-    }
-    if (still >= 3) return true;
-  }
-  return false;
-}
-
 // One round of expectation maximisation of the spreads at the present solution.
-void EstimateSpreads(const Spreads& guess, State* state, Solver* solver) {
+void EstimateSpreads(const Spreads& guess, BatchState* state, BatchSolver* solver) {
   const Eigen::MatrixXd covariance = solver->Linearize();
   constexpr double kInterval = 0.5;  // between the errors that are looked at [s]
   const int stride =
@@ -229,7 +55,7 @@ void EstimateSpreads(const Spreads& guess, State* state, Solver* solver) {
 }
 
 // How the animals turn as far as is known now, for their lean (cost_functions/size.h).
-void UpdateCurves(State* state) {
+void UpdateCurves(BatchState* state) {
   constexpr double kGravity = 9.81;  // [m/s^2]
   const double rate = 1 / state->model.knot_interval;
   for (Bird& bird : state->birds) {
@@ -270,7 +96,7 @@ SolvedPoint PointAt(const BatchModel& model, const Bird& bird, const Bird::Place
 
 // Points with the posterior of their depths; the common scale's own sd comes from the posterior of
 // the mean log depth of all sightings. Returns the covariance of the flock's unknowns.
-Eigen::MatrixXd ReadOut(State* state, Solver* solver, BatchResult* result) {
+Eigen::MatrixXd ReadOut(BatchState* state, BatchSolver* solver, BatchResult* result) {
   const Eigen::MatrixXd covariance = solver->Linearize();
   result->paths.resize(state->birds.size());
   double rows = 0;
@@ -316,7 +142,7 @@ Eigen::MatrixXd ReadOut(State* state, Solver* solver, BatchResult* result) {
   return covariance;
 }
 
-void CollectTerms(const State& state, BatchReport* report) {
+void CollectTerms(const BatchState& state, BatchReport* report) {
   std::array<double, kTermCount> squares{}, outliers{};
   std::array<long, kTermCount> counts{};
   for (const Bird& bird : state.birds) {
@@ -355,7 +181,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   SolvedWindow solved;
   BatchReport& report = solved.result.report;
   const ScaleGuess guess = WithBelief(GuessScale(knowledge, segments), knowledge, belief);
-  State state;
+  BatchState state;
   state.model = MakeModel(options, knowledge, segments, guess, belief, fps);
   state.shared = StartOfShared(state.model);
   state.birds.resize(segments.segments.size());
@@ -367,15 +193,15 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
                 }
               });
 
-  Solver solver(&state, threads);
+  BatchSolver solver(&state, threads);
   report.initial_cost = solver.Cost();
-  report.converged = solver.Minimize(options.max_iterations, &report, on_iteration);
+  report.converged = solver.Minimize(options.max_iterations, &report.iterations, on_iteration);
   if (options.estimate) {
     const Spreads first_guess = state.model.spreads;
     for (int round = 0; round < kSpreadRounds; ++round) {
       EstimateSpreads(first_guess, &state, &solver);
       UpdateCurves(&state);
-      report.converged = solver.Minimize(kSpreadIterations, &report, on_iteration);
+      report.converged = solver.Minimize(kSpreadIterations, &report.iterations, on_iteration);
     }
   }
   if (refine) refine({segments, belief, first_frame, state.model, &state.birds, &state.shared});

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/solve/batch_solver.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace flocklift::internal {
+namespace {
+
+constexpr double kLeastDamping = 1e-9, kMostDamping = 1e9;
+
+}  // namespace
+
+double BatchSolver::Cost() {
+  ForEachBird([this](std::size_t i) {
+    work_[i].cost = CostOf(state_.model, state_.birds[i], state_.shared);
+  });
+  double cost = SharedPriors(state_.model, state_.shared, nullptr, nullptr);
+  for (const Workspace& w : work_) cost += w.cost;
+  return cost;
+}
+
+Eigen::MatrixXd BatchSolver::Linearize() {
+  Assemble();
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd gradient;
+  Reduce(0, &matrix, &gradient);
+  return matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+}
+
+void BatchSolver::Assemble() {
+  ForEachBird([this](std::size_t i) {
+    ArrowSystem& system = work_[i].system;
+    system.SetZero();
+    ForEachRow(state_.model, state_.birds[i], state_.shared, true,
+               [&system](Term term, const ResidualRow& row) {
+                 system.Add(row, RobustWeight(term, row.residual));
+               });
+  });
+}
+
+void BatchSolver::Reduce(double damping_factor, Eigen::MatrixXd* matrix,
+                         Eigen::VectorXd* gradient) {
+  const int size = state_.model.shared();
+  ForEachBird([&](std::size_t i) {
+    Workspace& w = work_[i];
+    for (double damping = damping_factor * w.damping;; damping = std::max(10 * damping, 1e-9)) {
+      w.shared_matrix.setZero(size, size);
+      w.shared_gradient.setZero(size);
+      if (w.system.Reduce(damping, &w.shared_matrix, &w.shared_gradient)) break;
+      if (damping > kMostDamping) {  // nothing is known of this animal: leave it out
+        w.system.SetIdentity();
+      }
+    }
+  });
+  matrix->setZero(size, size);
+  gradient->setZero(size);
+  SharedPriors(state_.model, state_.shared, matrix, gradient);
+  for (const Workspace& w : work_) {  // in this order at any number of threads
+    *matrix += w.shared_matrix;
+    *gradient += w.shared_gradient;
+  }
+}
+
+bool BatchSolver::Minimize(int max_iterations, int* iterations,
+                           const std::function<void()>& on_iteration) {
+  constexpr double kEnough = 2e-3, kEnoughRelative = 1e-8;  // fall of the cost that counts
+  double cost = Cost();
+  for (std::size_t i = 0; i < work_.size(); ++i) work_[i].candidate = state_.birds[i];
+  int still = 0;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    if (on_iteration) on_iteration();
+    ++*iterations;
+    Assemble();
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd gradient;
+    Reduce(1, &matrix, &gradient);
+    const Eigen::VectorXd step = -matrix.llt().solve(gradient);
+    if (!step.allFinite()) return false;
+    // A step of the flock's unknowns that is too far for the model is halved; each animal takes
+    // its own part of the step only when that helps it.
+    bool accepted = false;
+    for (double share = 1; share > 0.02 && !accepted; share *= 0.4) {
+      const Eigen::VectorXd shared_step = share * step;
+      const Eigen::VectorXd shared = state_.shared + shared_step;
+      ForEachBird([&](std::size_t i) {
+        Workspace& w = work_[i];
+        const Bird& bird = state_.birds[i];
+        const Eigen::VectorXd own_step = w.system.BackSubstitute(shared_step);
+        w.candidate.path = bird.path;
+        w.candidate.own = bird.own;
+        w.candidate_cost = std::numeric_limits<double>::infinity();
+        if (own_step.allFinite()) {
+          for (int k = 0; k < bird.unknowns(); ++k) w.candidate.path[k] += own_step[k];
+          for (int k = 0; k < kOwnUnknowns; ++k) {
+            w.candidate.own[k] += own_step[bird.unknowns() + k];
+          }
+          w.candidate_cost = CostOf(state_.model, w.candidate, shared);
+        }
+        w.moved = w.candidate_cost < std::numeric_limits<double>::infinity();
+        if (!(w.candidate_cost < w.cost)) {
+          const double stay = CostOf(state_.model, bird, shared);
+          if (!(w.candidate_cost < stay)) {
+            w.moved = false;
+            w.candidate_cost = stay;
+          }
+        }
+      });
+      double candidate = SharedPriors(state_.model, shared, nullptr, nullptr);
+      for (const Workspace& w : work_) candidate += w.candidate_cost;
+      if (!(candidate < cost)) continue;
+      accepted = true;
+      state_.shared = shared;
+      for (std::size_t i = 0; i < work_.size(); ++i) {
+        Workspace& w = work_[i];
+        if (w.moved) {
+          std::swap(state_.birds[i].path, w.candidate.path);
+          state_.birds[i].own = w.candidate.own;
+        }
+        w.cost = w.candidate_cost;
+        w.damping = std::clamp(w.damping * (w.moved ? 0.2 : 8), kLeastDamping, kMostDamping);
+      }
+      still = cost - candidate < kEnough + kEnoughRelative * cost ? still + 1 : 0;
+      cost = candidate;
+    }
+    if (!accepted) {
+      ++still;
+      for (Workspace& w : work_) w.damping = std::min(w.damping * 10, kMostDamping);
+    }
+    if (still >= 3) return true;
+  }
+  return false;
+}
+
+}  // namespace flocklift::internal
