@@ -34,17 +34,21 @@ void SumOne(const Rules& rules, const PairTask<T>& task, std::size_t k, const Vi
   task.neighbours[k] = sum.Neighbours();
 }
 
-// The same with the eight sums of the kernels that go animal by animal (shape_kernel_inl.h):
-// neighbours are those that are felt, and the n-th is added to sum n % 8.
+// The same with the eight sums of the kernels that go animal by animal (shape_kernel_inl.h,
+// zones_kernel_inl.h): neighbours are those that are felt, and the n-th is added to sum n % 8.
+// Where some are listed apart, either list has an n of its own.
 template <typename T, typename Rules, typename Visit>
 void SumOneOfEight(const Rules& rules, const PairTask<T>& task, std::size_t k, const Visit& visit) {
   const Bodies<T>& s = task.bodies;
   const Vec3<T> x = s.Position(k), v = s.Velocity(k);
   typename Rules::Sums eight[8];
-  std::size_t count = 0;
+  std::size_t counts[2] = {};
   visit([&](std::uint32_t j) {
     const Vec3<T> dx = s.Position(j) - x;
-    if (rules.Felt(dx)) eight[count++ % 8] += rules.Pair(dx, s.Velocity(j) - v);
+    if (!rules.Felt(dx)) return;
+    bool apart = false;
+    if constexpr (requires { rules.Apart(dx); }) apart = rules.Apart(dx);
+    eight[counts[apart ? 1 : 0]++ % 8] += rules.Pair(dx, s.Velocity(j) - v);
   });
   for (std::size_t half = 4; half > 0; half /= 2) {
     for (std::size_t n = 0; n < half; ++n) eight[n] += eight[n + half];
@@ -87,11 +91,13 @@ void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
             }
           });
         };
-        if constexpr (requires { Rules::kByAnimal; }) {
-          SumOneOfEight(rules, task, k, visit);
-        } else {
-          SumOne(rules, task, k, visit);
+        if constexpr (requires { Rules::ByAnimal(true); }) {
+          if (Rules::ByAnimal(task.sample != nullptr)) {
+            SumOneOfEight(rules, task, k, visit);
+            continue;
+          }
         }
+        SumOne(rules, task, k, visit);
       }
     }
   });

@@ -46,7 +46,8 @@ inline double Reach(const ShapePairNumbers& n) { return std::max({n.r_rep, n.r_a
 // does not, and the zones share one direction. Sums are those of the terms by themselves.
 template <typename T>
 struct ShapePairs {
-  static constexpr bool kByAnimal = true;  // kernels sum animal by animal (shape_kernel_inl.h)
+  // Kernels sum animal by animal (shape_kernel_inl.h).
+  static constexpr bool ByAnimal(bool /*sampled*/) { return true; }
 
   ZoneParams<T, HardEdge> repulsion, alignment, attraction;
   ShapeForce::Params<T, HardEdge> spread;

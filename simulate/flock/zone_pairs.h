@@ -6,6 +6,8 @@
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_ZONE_PAIRS_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_ZONE_PAIRS_H_
 
+#include <type_traits>
+
 #include "simulate/forces/zones.h"
 
 namespace flocklift {
@@ -19,6 +21,12 @@ struct ZoneParameters {
 
 template <typename T, typename Taper = T>
 struct ZonePairs {
+  // Whether kernels sum animal by animal (zones_kernel_inl.h), those who attract apart. It pays
+  // where most candidates are no neighbours: not in a sample, taken from where nearly all are.
+  static constexpr bool ByAnimal(bool sampled) {
+    return std::is_same_v<Taper, HardEdge> && !sampled;
+  }
+
   ZoneParams<T, Taper> repulsion, alignment, attraction;
 
   struct Shares {
@@ -55,6 +63,10 @@ struct ZonePairs {
       fn(&attraction);
     }
   };
+
+  // Whether any zone counts, and whether it can only be that of attraction.
+  auto Felt(const Vec3<T>& dx) const { return Dot(dx, dx) <= attraction.r_att * attraction.r_att; }
+  auto Apart(const Vec3<T>& dx) const { return Dot(dx, dx) >= alignment.r_ali * alignment.r_ali; }
 
   const ZonePairs& For(const Vec3<T>& /*v*/) const { return *this; }
   Shares Pair(const Vec3<T>& dx, const Vec3<T>& dv) const {

@@ -7,8 +7,9 @@
 // the touching rows that are within reach of the tile's bounding box, one after the other for all
 // lanes. So every animal sums its neighbours in the order of the sort, whatever the width of a
 // pack, and nothing is contracted into fused operations that round otherwise: all variants give the
-// same bytes. The shape kernel takes a tile's animals one after the other, lanes holding the
-// neighbours within reach, in eight sums whatever the width of a pack.
+// same bytes. The kernels of the shape and of zones (with hard edges and no sample) take a tile's
+// animals one after the other, lanes holding the neighbours within reach, in eight sums whatever
+// the width of a pack.
 //
 // The variants are compiled with flags of their own. Hence this interface of plain pointers, and
 // no inline function or template that another file could share: the linker keeps only one of each.

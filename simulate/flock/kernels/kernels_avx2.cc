@@ -9,6 +9,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "simulate/flock/kernels/arch.h"
+#include "simulate/flock/kernels/set_bits_inl.h"
 
 FLOCKLIFT_KERNEL_ARCH(Avx2, xsimd::fma3<xsimd::avx2>)
 
@@ -18,22 +19,6 @@ namespace {
 std::uint64_t LaneMask(const xsimd::batch_bool<float, Avx2>& lanes) {
   return static_cast<unsigned>(_mm256_movemask_ps(lanes.data));
 }
-
-// For every mask of 8 bits the numbers of its set bits, one a byte, from the lowest byte on.
-struct SetBits {
-  std::uint64_t of[256];
-};
-constexpr SetBits MakeSetBits() {
-  SetBits bits{};
-  for (unsigned mask = 0; mask < 256; ++mask) {
-    int count = 0;
-    for (std::uint64_t k = 0; k < 8; ++k) {
-      if ((mask >> k & 1U) != 0) bits.of[mask] |= k << (8 * count++);
-    }
-  }
-  return bits;
-}
-constexpr SetBits kSetBits = MakeSetBits();
 
 // Writes base + k for every set bit k; writes 8 numbers in all.
 std::uint32_t AppendSetBits(std::uint64_t mask, std::uint32_t base, std::uint32_t* list) {

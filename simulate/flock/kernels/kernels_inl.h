@@ -10,6 +10,7 @@
 #include "simulate/flock/integrator.h"
 #include "simulate/flock/kernels/pair_kernel_inl.h"
 #include "simulate/flock/kernels/shape_kernel_inl.h"
+#include "simulate/flock/kernels/zones_kernel_inl.h"
 #include "simulate/flock/steer_pairs.h"
 #include "simulate/flock/zone_pairs.h"
 
@@ -46,15 +47,12 @@ struct Kernels {
   [[gnu::flatten]] static void Zones(const ZonesJob& job, std::uint32_t first, std::uint32_t last,
                                      std::uint32_t* room) {
     const auto run = [&](auto taper) {
-      using Taper = decltype(taper);
-      const auto zone = [&](float gain) -> ZoneParams<Pack, Taper> {
-        return {Pack(gain), Pack(job.r_rep), Pack(job.r_ali), Pack(job.r_att), taper};
-      };
-      const ZonePairs<Pack, Taper> rules{zone(job.w_rep), zone(job.w_ali), zone(job.w_att)};
-      SumPairs<Pack>(job.pairs, rules, taper, first, last, room);
+      SumPairs<Pack>(job.pairs, ZoneRules<Pack>(job, taper), taper, first, last, room);
     };
     if (job.taper > 0) {
       run(Pack(job.taper));
+    } else if (ZonePairs<Pack, HardEdge>::ByAnimal(job.pairs.sample != nullptr)) {
+      SumZonesByAnimal<Pack>(job, first, last);
     } else {
       run(HardEdge{});
     }

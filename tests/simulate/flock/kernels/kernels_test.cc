@@ -52,6 +52,10 @@ TEST(Kernels, Zones) {
     ExpectVariantsGiveTheSameBytes(ZoneParameters{0.3, 0.6, 1, 0.2, 3, 13, taper});
     ExpectVariantsGiveTheSameBytes(ZoneParameters{0.3, 10, 30, 0.2, 3, 13, taper});
   }
+  // Several blocks of candidates with both lists in them; nobody attracts; everybody does.
+  ExpectVariantsGiveTheSameBytes(ZoneParameters{0.7, 2, 5, 0.2, 3, 13, 0});
+  ExpectVariantsGiveTheSameBytes(ZoneParameters{0.7, 2, 2, 0.2, 3, 13, 0});
+  ExpectVariantsGiveTheSameBytes(ZoneParameters{0, 0, 3, 0.2, 3, 13, 0});
 }
 
 TEST(Kernels, Shape) {
