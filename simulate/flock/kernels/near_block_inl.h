@@ -22,17 +22,19 @@ namespace {
 
 constexpr std::uint32_t kEight = 8;  // sums of a term
 
-// Up to kRoom candidates of a tile, in the order of the sort.
-template <typename Pack, std::uint32_t kRoom>
+// Up to kRoom candidates of a tile, in the order of the sort: 3 columns, where they are, or 6, with
+// their velocities.
+template <typename Pack, std::uint32_t kRoom, int kColumns>
 class NearBlock {
  public:
   static constexpr std::uint32_t kColumn = kRoom + 2 * kEight;
 
   std::uint32_t count() const { return count_; }
-  // Their x; y and z follow at kColumn and 2 kColumn. From their end to the end of its pack x is no
+  // x, y, z, vx, vy, vz: the next is kColumn further. From their end to the end of its pack x is no
   // number, so that nobody is near.
-  const float* x() const { return columns_[0]; }
-  const std::uint32_t* numbers() const { return numbers_; }  // in the job's arrays
+  const float* columns() const { return columns_[0]; }
+  // Where they are in the job's arrays; of 3 columns.
+  const std::uint32_t* numbers() const { return numbers_; }
 
   // Calls fn() while animal a of the tile is nowhere near, so that it is no neighbour of itself.
   template <typename Function>
@@ -107,25 +109,35 @@ class NearBlock {
       const std::uint32_t left = last - j;
       const std::uint64_t all = (std::uint64_t{1} << (left < 63 ? left : 63)) - 1;  // no branch
       const std::uint64_t mask = LaneMask(felt(dx)) & all;
+      if constexpr (kColumns == 6) {
+        if (mask == 0) continue;
+      }
       StoreSetLanes(mask, x, columns_[0] + count);
       StoreSetLanes(mask, y, columns_[1] + count);
       StoreSetLanes(mask, z, columns_[2] + count);
-      count += AppendSetBits(mask, j, numbers_ + count);
+      if constexpr (kColumns == 6) {
+        StoreSetLanes(mask, Pack::load_unaligned(job.vx + j), columns_[3] + count);
+        StoreSetLanes(mask, Pack::load_unaligned(job.vy + j), columns_[4] + count);
+        StoreSetLanes(mask, Pack::load_unaligned(job.vz + j), columns_[5] + count);
+        count += static_cast<std::size_t>(__builtin_popcountll(mask));
+      } else {
+        count += AppendSetBits(mask, j, numbers_ + count);
+      }
     }
     count_ = static_cast<std::uint32_t>(count);
   }
   void AppendOne(const PairJob& job, const TileOf& tile, std::uint32_t j) {
-    const float* const from[3] = {job.x, job.y, job.z};
-    for (int k = 0; k < 3; ++k) columns_[k][count_] = from[k][j];
-    numbers_[count_] = j;
+    const float* const from[6] = {job.x, job.y, job.z, job.vx, job.vy, job.vz};
+    for (int k = 0; k < kColumns; ++k) columns_[k][count_] = from[k][j];
+    if constexpr (kColumns == 3) numbers_[count_] = j;
     if (j - tile.first < tile.last - tile.first) self_[j - tile.first] = count_;
     ++count_;
   }
 
   std::uint32_t count_ = 0;
-  std::uint32_t self_[kLanes];             // where the tile's own animals are
-  alignas(64) float columns_[3][kColumn];  // x, y, z
-  std::uint32_t numbers_[kColumn] = {};
+  std::uint32_t self_[kLanes];  // where the tile's own animals are
+  alignas(64) float columns_[kColumns][kColumn];
+  std::uint32_t numbers_[kColumns == 3 ? kColumn : 1] = {};
 };
 
 // Eight sums to one: k and k + 4, then k and k + 2, then both. For four animals, whose sums begin

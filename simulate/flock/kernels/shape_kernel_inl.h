@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The pairs of a shape-constrained swarm (simulate/flock/shape_pairs.h); included once by each
-// variant, after it has defined, besides what pair_kernel_inl.h asks for,
-//   void StoreSetLanes(mask, batch, to)   lanes k of the set bits k, one after the other
+// variant, as near_block_inl.h.
 //
 // A tile's animals are taken one after the other, lanes holding neighbours: on a surface few of a
 // tile's candidates are within reach of each of its animals, and tiles are seldom full. Neighbour n
@@ -15,12 +14,12 @@
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_KERNELS_SHAPE_KERNEL_INL_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_KERNELS_SHAPE_KERNEL_INL_H_
 
-#include <xmmintrin.h>
-
+#include <cstddef>
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
 
 #include "simulate/flock/kernels/kernels.h"
+#include "simulate/flock/kernels/near_block_inl.h"
 #include "simulate/flock/kernels/pair_kernel_inl.h"
 #include "simulate/flock/shape_pairs.h"
 
@@ -39,134 +38,52 @@ class ShapeTile {
       animals_[a].left_count = 0;
       for (std::uint32_t& count : animals_[a].counts) count = 0;
     }
-    Empty();
-    Collect();
-    SumBlock(true);
+    block_.Collect(
+        job_, tile, [this](const Vec3<Pack>& dx) { return rules_.Felt(dx); },
+        [this](bool last) { SumBlock(last); });
     Finish();
   }
 
  private:
-  static constexpr std::uint32_t kLanes = Pack::size, kEight = 8, kParts = kEight / kLanes;
-  static constexpr std::uint32_t kBlock = 128;
+  static constexpr std::uint32_t kLanes = Pack::size, kParts = kEight / kLanes;
+  static constexpr std::uint32_t kBlock = 128, kColumn = NearBlock<Pack, kBlock, 6>::kColumn;
   static constexpr std::uint32_t kRows = 12;  // of sums: repulsion, alignment, spread, attraction
   static constexpr std::uint32_t kRepulsion = 0, kAlignment = 3, kSpread = 6, kAttraction = 9;
-  static constexpr std::uint32_t kNobody = 0xFFFFFF00U;
 
   struct Animal {
     alignas(32) float sums[kRows][kEight];
     alignas(32) float left[6][kEight];  // neighbours too few for a pack, for the next block
     std::uint32_t left_count;
     std::uint32_t counts[4];   // neighbours that repel, align, spread, attract
-    std::uint32_t self;        // where the animal is in the block
     std::uint32_t begin, end;  // in near_
   };
 
   std::uint32_t Size() const { return tile_.last - tile_.first; }
-  // Bit k, or one beyond all lanes: without a branch, which would often be foreseen wrongly.
-  static std::uint64_t Bit(std::uint32_t k) { return std::uint64_t{1} << (k < 63 ? k : 63); }
-  const float* Column(int k) const {
-    const float* const all[6] = {job_.x, job_.y, job_.z, job_.vx, job_.vy, job_.vz};
-    return all[k];
-  }
-
-  // ---- candidates -------------------------------------------------------------------------------
-
-  void Empty() {
-    count_ = 0;
-    for (std::uint32_t a = 0; a < Size(); ++a) animals_[a].self = kNobody;
-  }
-  void MakeRoom(std::uint32_t more) {
-    if (count_ + more <= kBlock) return;
-    SumBlock(false);
-    Empty();
-  }
-
-  // Those of [first, last) that the nearest point of the tile's box would feel: no animal of the
-  // tile is nearer, rounding included.
-  void AppendNear(std::uint32_t first, std::uint32_t last, const Interval* box) {
-    const float *const px = job_.x, *const py = job_.y, *const pz = job_.z;
-    const float *const vx = job_.vx, *const vy = job_.vy, *const vz = job_.vz;
-    std::uint32_t count = count_;
-    for (std::uint32_t j = first; j < last; j += kLanes) {
-      if (count + kLanes > kBlock) {
-        count_ = count;
-        MakeRoom(kLanes);
-        count = count_;
-      }
-      const Pack at_x = Pack::load_unaligned(px + j), at_y = Pack::load_unaligned(py + j),
-                 at_z = Pack::load_unaligned(pz + j);
-      const Pack x = Outside(at_x, box[0]), y = Outside(at_y, box[1]), z = Outside(at_z, box[2]);
-      const std::uint64_t mask = LaneMask(rules_.Felt({x, y, z})) & (Bit(last - j) - 1);
-      StoreSetLanes(mask, at_x, block_[0] + count);
-      StoreSetLanes(mask, at_y, block_[1] + count);
-      StoreSetLanes(mask, at_z, block_[2] + count);
-      StoreSetLanes(mask, Pack::load_unaligned(vx + j), block_[3] + count);
-      StoreSetLanes(mask, Pack::load_unaligned(vy + j), block_[4] + count);
-      StoreSetLanes(mask, Pack::load_unaligned(vz + j), block_[5] + count);
-      count += static_cast<std::uint32_t>(__builtin_popcountll(mask));
-    }
-    count_ = count;
-  }
-  void AppendOne(std::uint32_t j) {
-    for (int k = 0; k < 6; ++k) block_[k][count_] = Column(k)[j];
-    if (j - tile_.first < Size()) animals_[j - tile_.first].self = count_;
-    ++count_;
-  }
-  void AppendOwn() {
-    MakeRoom(kLanes);
-    for (std::uint32_t j = tile_.first; j < tile_.last; ++j) AppendOne(j);
-  }
-  // Those of [first, last) that the row samples, wherever they are.
-  void AppendSample(const RowSample& sample, std::uint32_t first, std::uint32_t last) {
-    ForEachSampled(sample, first, last, [this](std::uint32_t j) {
-      MakeRoom(1);
-      AppendOne(j);
-    });
-  }
-
-  void Collect() {
-    const Interval box[3] = {Bounds(job_.x, tile_.first, tile_.last),
-                             Bounds(job_.y, tile_.first, tile_.last),
-                             Bounds(job_.z, tile_.first, tile_.last)};
-    const RowSample sample = job_.sample != nullptr ? job_.sample[tile_.row] : RowSample{1, 0};
-    ForEachRun(job_, tile_, box[0], [&](std::uint32_t first, std::uint32_t last, bool own_row) {
-      if (sample.stride > 1) {
-        AppendSample(sample, first, last);
-      } else if (own_row) {
-        AppendNear(first, tile_.first, box);
-        AppendOwn();
-        AppendNear(tile_.last, last, box);
-      } else {
-        AppendNear(first, last, box);
-      }
-    });
-  }
-
-  // ---- sums -------------------------------------------------------------------------------------
 
   // Lists what is left of the last block and the animals of this one that are within reach.
-  void Sift(std::uint32_t at, std::uint32_t begin, Animal* animal) {
+  void Sift(std::uint32_t a, std::uint32_t begin) {
+    Animal* const animal = &animals_[a];
+    const std::uint32_t at = tile_.first + a, count = block_.count();
     const Pack x(job_.x[at]), y(job_.y[at]), z(job_.z[at]);
     if (!fresh_) {
       for (int k = 0; k < 6; ++k) Copy(animal->left[k], near_[k] + begin);
     }
-    std::uint32_t end = begin + animal->left_count;
-    const std::uint32_t self = animal->self, count = count_;
-    for (std::uint32_t q = 0; q < count; q += kLanes) {
-      const Pack dx = Pack::load_aligned(block_[0] + q) - x,
-                 dy = Pack::load_aligned(block_[1] + q) - y,
-                 dz = Pack::load_aligned(block_[2] + q) - z;
-      const std::uint64_t mask = LaneMask(rules_.Felt({dx, dy, dz})) & ~Bit(self - q);
-      StoreSetLanes(mask, dx, near_[0] + end);
-      StoreSetLanes(mask, dy, near_[1] + end);
-      StoreSetLanes(mask, dz, near_[2] + end);
-      for (int k = 3; k < 6; ++k) {
-        StoreSetLanes(mask, Pack::load_aligned(block_[k] + q), near_[k] + end);
+    const float* const from = block_.columns();
+    std::size_t end = begin + animal->left_count;
+    block_.Without(a, [&] {
+      for (std::size_t q = 0; q < count; q += kLanes) {
+        const auto load = [&](std::size_t k) { return Pack::load_aligned(from + k * kColumn + q); };
+        const Vec3<Pack> dx{load(0) - x, load(1) - y, load(2) - z};
+        const std::uint64_t mask = LaneMask(rules_.Felt(dx));
+        StoreSetLanes(mask, dx.x, near_[0] + end);
+        StoreSetLanes(mask, dx.y, near_[1] + end);
+        StoreSetLanes(mask, dx.z, near_[2] + end);
+        for (std::size_t k = 3; k < 6; ++k) StoreSetLanes(mask, load(k), near_[k] + end);
+        end += static_cast<std::size_t>(__builtin_popcountll(mask));
       }
-      end += static_cast<std::uint32_t>(__builtin_popcountll(mask));
-    }
+    });
     animal->begin = begin;
-    animal->end = end;
+    animal->end = static_cast<std::uint32_t>(end);
   }
 
   static void Copy(const float* from, float* to) {  // eight
@@ -232,11 +149,10 @@ class ShapeTile {
     animal->counts[2] += spread;
   }
 
-  void SumBlock(bool last) {
-    for (std::uint32_t q = count_; q < count_ + kEight; ++q) block_[0][q] = __builtin_nanf("");
+  [[gnu::noinline]] void SumBlock(bool last) {
     std::uint32_t begin = 0;
     for (std::uint32_t a = 0; a < Size(); ++a) {
-      Sift(tile_.first + a, begin, &animals_[a]);
+      Sift(a, begin);
       begin = (animals_[a].end + kEight - 1) / kEight * kEight;
     }
     const float beyond = 2 * job_.reach + 1;  // no term reaches as far
@@ -254,24 +170,12 @@ class ShapeTile {
     fresh_ = false;
   }
 
-  // Eight sums to one: k and k + 4, then k and k + 2, then both. For four animals from a on.
-  void Fold(std::uint32_t a, std::uint32_t row, float* four) const {
-    const auto halves = [&](std::uint32_t animal) {
-      const float* const sums = animals_[a + animal].sums[row];
-      return _mm_add_ps(_mm_load_ps(sums), _mm_load_ps(sums + 4));
-    };
-    const auto quarters = [&](std::uint32_t animal) {
-      const __m128 f = halves(animal), g = halves(animal + 1);
-      return _mm_add_ps(_mm_movelh_ps(f, g), _mm_movehl_ps(g, f));
-    };
-    const __m128 u = quarters(0), v = quarters(2);
-    _mm_store_ps(four, _mm_add_ps(_mm_shuffle_ps(u, v, 0x88), _mm_shuffle_ps(u, v, 0xDD)));
-  }
-
   void Finish() {
     alignas(64) float total[kRows][kLanes], counts[4][kLanes];
     for (std::uint32_t a = 0; a < kLanes; a += 4) {
-      for (std::uint32_t row = 0; row < kRows; ++row) Fold(a, row, total[row] + a);
+      for (std::uint32_t row = 0; row < kRows; ++row) {
+        Fold(animals_[a].sums[row], sizeof(Animal) / sizeof(float), total[row] + a);
+      }
       for (std::uint32_t k = a; k < a + 4; ++k) {
         for (int n = 0; n < 4; ++n) counts[n][k] = static_cast<float>(animals_[k].counts[n]);
       }
@@ -296,9 +200,8 @@ class ShapeTile {
   const PairJob& job_;
   const ShapePairs<Pack>& rules_;
   TileOf tile_{};
-  bool fresh_ = true;                                               // nothing has been summed yet
-  std::uint32_t count_ = 0;                                         // animals in the block
-  alignas(64) float block_[6][kBlock + 2 * kEight];                 // x, y, z, vx, vy, vz
+  bool fresh_ = true;  // nothing has been summed yet
+  NearBlock<Pack, kBlock, 6> block_;
   alignas(64) float near_[6][kLanes * (kBlock + 2 * kEight)] = {};  // dx, velocities; by animal
   Animal animals_[kLanes] = {};
 };
