@@ -55,10 +55,14 @@ void ParseGoal(const std::string& text, FitProblem* problem) {
                                      : GoalChoice::kSought;
     return;
   }
-  const std::optional<std::vector<double>> numbers = ParseNumbers(text, 3);
-  Check(numbers.has_value(), "--goal " + text + " is none of auto, none, seek and X,Y,Z");
+  const std::optional<std::vector<double>> place = ParseNumbers(text, 3);
+  const std::optional<std::vector<double>> ball = ParseNumbers(text, 4);
+  Check(place || (ball && (*ball)[3] >= 0),
+        "--goal " + text + " is none of auto, none, seek, X,Y,Z and X,Y,Z,REACH");
+  const std::vector<double>& numbers = place ? *place : *ball;
   problem->goal = GoalChoice::kGiven;
-  problem->goal_position = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  problem->goal_position = {numbers[0], numbers[1], numbers[2]};
+  if (ball) problem->goal_reach = numbers[3];
 }
 
 nlohmann::ordered_json NumberOrNull(double value) {
@@ -106,6 +110,7 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
                                  {"own_speed_sd", result.own_speed_sd},
                                  {"condition", NumberOrNull(result.condition)}};
   if (result.diffusion_sd) json["diffusion_sd"] = *result.diffusion_sd;
+  if (result.velocity_noise) json["velocity_noise"] = *result.velocity_noise;
   if (result.position_noise) json["position_noise"] = *result.position_noise;
   if (result.r2_held_out) json["r2_held_out"] = *result.r2_held_out;
   for (const GoalSpec& goal : result.parameters.goals) {
@@ -199,7 +204,8 @@ void AddFitCommand(CLI::App& app) {
       "  flocklift fit trajectories.csv --free alpha_s,alpha_a,d_s,d_v "
       "--set taper=1,cruise=0,noise_time=0\n"
       "  flocklift fit trajectories.csv --compare boids,linear\n"
-      "  flocklift fit truth/trajectories.csv --walls=-20,-20,2,20,20,22",
+      "  flocklift fit truth/trajectories.csv --walls=-20,-20,2,20,20,22\n"
+      "  flocklift fit trajectories.csv --model swarm --set evolution=3 --goal 0,0,5,4",
       {.fps = true, .seed = true}, &RunFit, &command);
   sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
   sub->add_option("--model", command->model, "the model; `flocklift simulate --list` names them")
@@ -216,13 +222,17 @@ void AddFitCommand(CLI::App& app) {
   AddWallsFlag(*sub, &command->walls);
   sub->add_option("--goal", command->goal,
                   "a point that attracts all: auto (sought when something holds the animals in "
-                  "place), none, seek, or X,Y,Z [m]")
+                  "place), none, seek, X,Y,Z, or of a swarm X,Y,Z,REACH, within which it does "
+                  "not pull [m]")
       ->capture_default_str();
-  sub->add_option("--method", command->method,
-                  "state-space (all at once, by likelihood; smooth models), errors-in-variables "
-                  "(regression with instruments), differences (least squares on plain differences: "
-                  "badly biased, for comparison), or auto, which never takes the last")
-      ->check(CLI::IsMember({"auto", "state-space", "errors-in-variables", "differences"}))
+  sub->add_option(
+         "--method", command->method,
+         "state-space (all at once, by likelihood; smooth models), errors-in-variables "
+         "(regression with instruments), differences (least squares on plain differences: "
+         "badly biased, for comparison), noise-field (scale and gain of a swarm's curl noise, "
+         "its seed unknown), or auto, which never takes differences")
+      ->check(CLI::IsMember(
+          {"auto", "state-space", "errors-in-variables", "differences", "noise-field"}))
       ->capture_default_str();
   sub->add_option("--compare", command->compare,
                   "models, separated by commas, to be fitted to all but the last part of the time "

@@ -25,7 +25,7 @@ struct FitCommand {
   std::vector<std::string> free = {};     // empty: every weight
   std::vector<std::string> set = {};      // "NAME=VALUE": what is not free
   std::string walls = {};                 // "X0,Y0,Z0,X1,Y1,Z1" [m]; empty: none
-  std::string goal = "auto";              // auto, none, seek or "X,Y,Z"
+  std::string goal = "auto";              // auto, none, seek, "X,Y,Z" or "X,Y,Z,REACH"
   std::string method = "auto";            // of reconstruct/fit/fit.h
   std::vector<std::string> compare = {};  // models
   FitOptions fit = {};

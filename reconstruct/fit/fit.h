@@ -3,7 +3,7 @@
 //
 // What made a flock move: the parameters of a model's force terms, from positions alone.
 //   acceleration = sum_p theta_p f_p(state) + what is known + c_i v/|v| + u
-// f_p by the simulator's own templated terms. Three estimators:
+// f_p by the simulator's own templated terms. Estimators:
 //   state-space          states, parameters, process and position noise together, of greatest
 //                        marginal likelihood (state_space.h); for smooth models, the default there
 //   errors-in-variables  accelerations as second differences with the terms averaged under the same
@@ -15,8 +15,12 @@
 //   differences          least squares on differences of the same frames, for comparison only: on
 //                        the reference flock (equations.md 2b) it misses 93 to 98 % of the weights,
 //                        however long the data, so it is never chosen unless named
+// and one for what has no accelerations, the drift of the model swarm:
+//   noise-field          scale and gain of its curl noise, the seed unknown, of greatest marginal
+//                        likelihood (noise_field.h)
 // A goal may move: only what it does to animals apart from each other is used, and its mean place
-// is estimated. Radii and tapers are given, not fitted. World frame, z up; metres, seconds.
+// is estimated. A state-space estimate frees radii and tapers too; elsewhere they are given. World
+// frame, z up; metres, seconds.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_FIT_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_FIT_H_
@@ -43,6 +47,7 @@ struct FitOptions {
   int depth_draws = 6;          // refits with depth errors added, when the input states them
   double depth_error_time = 2;  // for how long a depth error lasts [s]
   double scale_sd = 0;          // relative sd of the common scale in sd_depth
+  int noise_animals = 400;      // of curl noise: animals of a field that it is sought from
 };
 
 template <typename Visitor>
@@ -64,6 +69,8 @@ void Describe(Visitor& visit, FitOptions& o) {
         "for how long a depth error lasts");
   visit("scale-sd", o.scale_sd, {.low = 0, .high = 10}, "",
         "relative sd of the common scale, which sd_depth includes");
+  visit("noise-animals", o.noise_animals, {.low = 50, .high = 2000}, "",
+        "of curl noise: animals that it is sought from, in each time of a noise that evolves");
 }
 
 // A point that attracts all animals, besides the model's own terms (a scene's [[goal]]).
@@ -79,6 +86,7 @@ enum class FitMethod {
   kStateSpace,
   kErrorsInVariables,
   kDifferences,
+  kNoiseField,  // of the model swarm, and of no other
 };
 std::string NameOf(FitMethod method);  // as in the list above
 // Throws std::invalid_argument for another name.
@@ -92,6 +100,7 @@ struct FitProblem {
   std::optional<Region> walls;  // the box of the boundary term; without it the term is left out
   GoalChoice goal = GoalChoice::kWhenHeld;
   Vec3d goal_position;           // when given [m]
+  double goal_reach = 0;         // likewise: animals nearer than this are there [m]
   std::optional<Camera> camera;  // where depth errors point; absent: eye at the world's origin
 };
 
@@ -144,6 +153,7 @@ struct FitResult {
   double diffusion = 0;                // of the velocity, when noise_time is 0 [m^2/s^3]
   std::optional<double> diffusion_sd;  // of a state-space estimate
   std::optional<double> position_noise;         // sd of each coordinate, likewise [m]
+  std::optional<double> velocity_noise;         // of what drifts: sd not explained [m/s]
   double own_speed_mean = 0, own_speed_sd = 0;  // the animals' cruising speeds, if any [m/s]
   double condition = 0;                         // of the moment matrix, terms scaled to unit rms
   FitDirection best, worst;

@@ -33,17 +33,21 @@ std::string NameOf(FitMethod method) {
       return "errors-in-variables";
     case FitMethod::kDifferences:
       return "differences";
+    case FitMethod::kNoiseField:
+      return "noise-field";
   }
   return "";
 }
 
 FitMethod FitMethodOf(const std::string& name) {
-  for (const FitMethod method : {FitMethod::kAuto, FitMethod::kStateSpace,
-                                 FitMethod::kErrorsInVariables, FitMethod::kDifferences}) {
+  for (const FitMethod method :
+       {FitMethod::kAuto, FitMethod::kStateSpace, FitMethod::kErrorsInVariables,
+        FitMethod::kDifferences, FitMethod::kNoiseField}) {
     if (NameOf(method) == name) return method;
   }
   Check(false,
-        "--method " + name + " is none of auto, state-space, errors-in-variables and differences");
+        "--method " + name +
+            " is none of auto, state-space, errors-in-variables, differences and noise-field");
   return FitMethod::kAuto;
 }
 
