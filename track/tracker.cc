@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -25,6 +26,26 @@ constexpr std::size_t kLearnImages = 24;  // at the start, for the detector
 constexpr std::size_t kLearnStride = 2;   // of these, every second one
 constexpr std::size_t kQueued = 6;        // frames between two threads
 
+// Pictures whose memory is used again.
+class SparePictures {
+ public:
+  GrayImage Take() {
+    const std::lock_guard lock(mutex_);
+    if (pictures_.empty()) return {};
+    GrayImage picture = std::move(pictures_.back());
+    pictures_.pop_back();
+    return picture;
+  }
+  void Give(GrayImage picture) {
+    const std::lock_guard lock(mutex_);
+    if (pictures_.size() < kQueued) pictures_.push_back(std::move(picture));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<GrayImage> pictures_;
+};
+
 }  // namespace
 
 TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::path& path,
@@ -36,6 +57,7 @@ TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::p
   const std::int64_t declared = video.frame_count().value_or(0);
   TrackerReport report;
 
+  SparePictures spare;
   internal::BoundedQueue<GrayImage> images(kQueued);
   internal::BoundedQueue<BlobFrame> blob_frames(4 * kQueued);
   std::exception_ptr decode_error, detect_error;
@@ -48,7 +70,7 @@ TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::p
       GrayImage image;
       while (Timed(&timings.decode_s, [&] { return video.Read(&image); })) {
         if (!images.Push(std::move(image))) break;
-        image = GrayImage();
+        image = spare.Take();
       }
     } catch (...) {
       decode_error = std::current_exception();
@@ -78,12 +100,13 @@ TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::p
       bool wanted = true;
       for (GrayImage& image : first) {
         wanted = wanted && detect(image);
-        image = GrayImage();
+        spare.Give(std::move(image));
       }
       while (wanted) {
-        const std::optional<GrayImage> image = images.Pop();
+        std::optional<GrayImage> image = images.Pop();
         if (!image) break;
         wanted = detect(*image);
+        spare.Give(std::move(*image));
       }
     } catch (...) {
       detect_error = std::current_exception();

@@ -34,6 +34,28 @@ double SquaredDistanceToPixels(std::span<const BlobPixel> pixels, const Vec2d& p
   return nearest;
 }
 
+// Of the box around some pixels: never more than that of the nearest of them.
+struct Bounds {
+  float left = 0, top = 0, right = 0, bottom = 0;
+
+  explicit Bounds(std::span<const BlobPixel> pixels) {
+    if (pixels.empty()) return;
+    left = right = pixels[0].x;
+    top = bottom = pixels[0].y;
+    for (const BlobPixel& q : pixels) {
+      left = std::min(left, q.x);
+      right = std::max(right, q.x);
+      top = std::min(top, q.y);
+      bottom = std::max(bottom, q.y);
+    }
+  }
+  double SquaredDistance(const Vec2d& p) const {
+    const double dx = std::max({left - 0.5 - p.x, p.x - right - 0.5, 0.0});
+    const double dy = std::max({top - 0.5 - p.y, p.y - bottom - 0.5, 0.0});
+    return dx * dx + dy * dy;
+  }
+};
+
 std::span<const BlobPixel> PixelsOf(const BlobFrame& frame, const Blob& blob) {
   return std::span(frame.pixels).subspan(blob.first_pixel, blob.pixel_count);
 }
@@ -73,9 +95,11 @@ void FlockTracker::PredictAll(int frames) {
 std::vector<std::vector<int>> FlockTracker::ExpectedInBlobs(const BlobFrame& blobs) const {
   std::vector<std::vector<int>> expected(blobs.blobs.size());
   std::vector<Vec2d> centers;
+  std::vector<Bounds> bounds;
   double longest = 0;
   for (const Blob& blob : blobs.blobs) {
     centers.push_back(blob.center);
+    bounds.emplace_back(PixelsOf(blobs, blob));
     longest = std::max({longest, blob.box.width, blob.box.height});
   }
   const PointGrid grid(centers, std::max(longest, 8.0));
@@ -86,9 +110,9 @@ std::vector<std::vector<int>> FlockTracker::ExpectedInBlobs(const BlobFrame& blo
     double nearest = reach * reach;
     int where = -1;
     grid.ForEachWithin(animal.motion.state().position, reach + longest, [&](int j, double) {
-      const Blob& blob = blobs.blobs[j];
+      if (bounds[j].SquaredDistance(animal.motion.state().position) > nearest) return;
       const double distance2 =
-          SquaredDistanceToPixels(PixelsOf(blobs, blob), animal.motion.state().position);
+          SquaredDistanceToPixels(PixelsOf(blobs, blobs.blobs[j]), animal.motion.state().position);
       if (distance2 < nearest || (distance2 == nearest && where < 0)) {
         nearest = distance2;
         where = j;

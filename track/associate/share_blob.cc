@@ -3,12 +3,15 @@
 
 #include "track/associate/share_blob.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flocklift {
 namespace {
 
-constexpr int kIterations = 12;
+constexpr int kMostIterations = 12;
+constexpr double kRests = 1e-4;          // squared [px^2]: no mean moved farther
+constexpr double kNoShare = -16;         // ln: less counts as nothing
 constexpr double kLeastVariance = 0.25;  // of an animal's own shape [px^2]
 
 // Inverse covariance and log weight of one mixture component.
@@ -38,7 +41,9 @@ std::vector<BlobShare> ShareBlob(std::span<const BlobPixel> pixels,
     means[k] = animals[k].position;
   }
   std::vector<double> log_share(count), sum(count), sum_x(count), sum_y(count), sum_squared(count);
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
+  double moved = 1;
+  for (int iteration = 0; iteration < kMostIterations && moved > kRests; ++iteration) {
+    moved = 0;
     for (std::size_t k = 0; k < count; ++k) sum[k] = sum_x[k] = sum_y[k] = sum_squared[k] = 0;
     for (const BlobPixel& p : pixels) {
       double best = -1e300;
@@ -49,8 +54,13 @@ std::vector<BlobShare> ShareBlob(std::span<const BlobPixel> pixels,
         best = std::max(best, log_share[k]);
       }
       double total = 0;
-      for (std::size_t k = 0; k < count; ++k) total += log_share[k] = std::exp(log_share[k] - best);
+      for (double& share : log_share) {
+        const double below = share - best;
+        share = below == 0 ? 1 : below < kNoShare ? 0 : std::exp(static_cast<float>(below));
+        total += share;
+      }
       for (std::size_t k = 0; k < count; ++k) {
+        if (log_share[k] == 0) continue;
         const double share = log_share[k] / total, weight = share * p.contrast;
         sum[k] += weight;
         sum_x[k] += weight * p.x;
@@ -69,8 +79,11 @@ std::vector<BlobShare> ShareBlob(std::span<const BlobPixel> pixels,
           a.noise + ambiguity * 0.5 * (a.moments.xx + a.moments.yy + 2 * kLeastVariance);
       shares[k] = {{sum_x[k] / sum[k], sum_y[k] / sum[k]}, variance, ambiguity};
       const double w = a.variance / (a.variance + variance);
-      means[k] = {w * shares[k].position.x + (1 - w) * a.position.x,
-                  w * shares[k].position.y + (1 - w) * a.position.y};
+      const Vec2d mean{w * shares[k].position.x + (1 - w) * a.position.x,
+                       w * shares[k].position.y + (1 - w) * a.position.y};
+      const double dx = mean.x - means[k].x, dy = mean.y - means[k].y;
+      moved = std::max(moved, dx * dx + dy * dy);
+      means[k] = mean;
     }
   }
   return shares;

@@ -10,6 +10,7 @@
 #ifndef FLOCKLIFT_TRACK_DETECT_BACKGROUND_H_
 #define FLOCKLIFT_TRACK_DETECT_BACKGROUND_H_
 
+#include <cstddef>
 #include <vector>
 
 #include "track/gray_image.h"
@@ -30,6 +31,27 @@ struct LocalBackground {
 
  private:
   double Interpolate(const std::vector<float>& field, double x, double y) const;
+};
+
+// The level at the pixels of an image, quickly: the rows are interpolated beforehand.
+class LevelTable {
+ public:
+  LevelTable(const LocalBackground& background, int image_width, int image_height);
+
+  float At(int u, int v) const {
+    const Column& c = columns_[u];
+    const float* row = rows_.data() + nodes_ * v + c.node;
+    return row[0] + c.share * (row[1] - row[0]);
+  }
+
+ private:
+  struct Column {
+    int node;
+    float share;  // of the node at its right
+  };
+  std::size_t nodes_;  // of a row, and one beyond
+  std::vector<Column> columns_;
+  std::vector<float> rows_;
 };
 
 // `window` [px] is the side of the local mean, three or so times the length of an animal.

@@ -26,7 +26,9 @@ constexpr double kLeastAgreement = 0.6;  // of the corners that were followed
 constexpr double kInlier = 0.5;          // [px]
 constexpr double kMostZoom = 0.03;       // between two frames
 constexpr double kLeastSpread = 0.15;    // of the picture's diagonal that the corners span
-constexpr int kProbeInterval = 8;        // frames
+constexpr int kProbeInterval = 8;        // frames,
+constexpr int kMostProbeInterval = 64;   // twice as many each time, after
+constexpr int kQuietProbes = 4;          // in a row without motion
 constexpr int kProbesThatTell = 2;
 constexpr double kMoves = 0.35;  // [px] between two frames
 
@@ -121,27 +123,37 @@ CameraMotion::CameraMotion(const CameraMotionOptions& options) {
         "option camera-motion is " + options.camera + ", allowed are rests, moves and auto");
   is_auto_ = options.camera == "auto";
   moves_ = options.camera == "moves";
+  interval_ = kProbeInterval;
+  until_probe_ = interval_ - 1;
 }
 
 Similarity CameraMotion::Next(const GrayImage& image, const BlobFrame& found) {
   if (!is_auto_ && !moves_) return {};
-  const int phase = frames_++ % kProbeInterval;
   if (has_before_) {
-    if (const auto motion = MotionBetween(before_, before_found_, image)) {
-      if (moves_) {
-        world_from_image_ = world_from_image_ * motion->Inverse();
-      } else if (LargestShift(*motion, image.width, image.height) > kMoves &&
-                 ++seen_moving_ == kProbesThatTell) {
-        moves_ = true;
-      }
+    const auto motion = MotionBetween(before_, before_found_, image);
+    if (moves_) {
+      if (motion) world_from_image_ = world_from_image_ * motion->Inverse();
+    } else {
+      Probe(motion && LargestShift(*motion, image.width, image.height) > kMoves);
     }
   }
-  has_before_ = moves_ || phase == kProbeInterval - 2;
+  has_before_ = moves_ || --until_probe_ == 0;
   if (has_before_) {
     before_ = image;
     before_found_.blobs = found.blobs;
   }
   return world_from_image_;
+}
+
+void CameraMotion::Probe(bool is_moving) {
+  if (is_moving) {
+    moves_ = ++seen_moving_ == kProbesThatTell;
+    quiet_ = 0;
+    interval_ = kProbeInterval;
+  } else if (++quiet_ >= kQuietProbes) {
+    interval_ = std::min(2 * interval_, kMostProbeInterval);
+  }
+  until_probe_ = interval_;
 }
 
 }  // namespace flocklift

@@ -40,14 +40,17 @@ class CameraMotion {
   explicit CameraMotion(const CameraMotionOptions& options);
 
   // From this frame's picture to the first one's. `found` are the frame's animals. With auto, one
-  // frame in some is looked at until the camera is seen to move.
+  // frame in some is looked at until the camera is seen to move, fewer the longer it rests.
   Similarity Next(const GrayImage& image, const BlobFrame& found);
 
   bool moves() const { return moves_; }
 
  private:
+  void Probe(bool is_moving);
+
   bool is_auto_ = true, moves_ = false;
-  int frames_ = 0, seen_moving_ = 0;
+  int until_probe_ = 0, interval_ = 0;  // frames
+  int seen_moving_ = 0, quiet_ = 0;     // probes
   Similarity world_from_image_;
   GrayImage before_;
   BlobFrame before_found_;

@@ -10,10 +10,16 @@
 namespace flocklift {
 namespace {
 
-// Appends the runs of one row. Empty stretches go by eight bytes at a time.
+// Appends the runs of one row. Empty stretches go by 32 bytes at a time.
 void FindRuns(const std::uint8_t* row, int width, int v, std::vector<PixelRun>* runs) {
   int u = 0;
   while (u < width) {
+    while (u + 32 <= width) {
+      std::uint64_t words[4];
+      std::memcpy(words, row + u, 32);
+      if ((words[0] | words[1] | words[2] | words[3]) != 0) break;
+      u += 32;
+    }
     while (u + 8 <= width) {
       std::uint64_t eight;
       std::memcpy(&eight, row + u, 8);

@@ -16,6 +16,7 @@
 #include "simulate/core/text.h"
 #include "track/detect/background.h"
 #include "track/detect/components.h"
+#include "track/detect/patch_blobs.h"
 
 namespace flocklift {
 namespace {
@@ -56,38 +57,6 @@ void MarkContrast(const GrayImage& image, const LocalBackground& background, boo
   cv::resize(coarse, limit_view, limit_view.size(), 0, 0, cv::INTER_LINEAR);
   cv::compare(View(image), limit_view(cv::Rect(0, 0, image.width, image.height)), mask_view,
               dark ? cv::CMP_LT : cv::CMP_GT);
-}
-
-// Sums over the pixels of one blob, which stand at the end of `found->pixels` from `first` on.
-Blob Measure(const BlobFrame& found, std::size_t first) {
-  Blob blob;
-  double left = 1e9, top = 1e9, right = -1e9, bottom = -1e9;
-  for (std::size_t k = first; k < found.pixels.size(); ++k) {
-    const BlobPixel& p = found.pixels[k];
-    blob.mass += p.contrast;
-    blob.center.x += p.contrast * p.x;
-    blob.center.y += p.contrast * p.y;
-    left = std::min<double>(left, p.x);
-    right = std::max<double>(right, p.x);
-    top = std::min<double>(top, p.y);
-    bottom = std::max<double>(bottom, p.y);
-  }
-  blob.center.x /= blob.mass;
-  blob.center.y /= blob.mass;
-  for (std::size_t k = first; k < found.pixels.size(); ++k) {
-    const BlobPixel& p = found.pixels[k];
-    const double dx = p.x - blob.center.x, dy = p.y - blob.center.y;
-    blob.moments.xx += p.contrast * dx * dx;
-    blob.moments.xy += p.contrast * dx * dy;
-    blob.moments.yy += p.contrast * dy * dy;
-  }
-  blob.moments.xx = blob.moments.xx / blob.mass + 1.0 / 12;
-  blob.moments.xy = blob.moments.xy / blob.mass;
-  blob.moments.yy = blob.moments.yy / blob.mass + 1.0 / 12;
-  blob.box = {left - 0.5, top - 0.5, right - left + 1, bottom - top + 1};
-  blob.first_pixel = static_cast<std::uint32_t>(first);
-  blob.pixel_count = static_cast<std::uint32_t>(found.pixels.size() - first);
-  return blob;
 }
 
 // "left,top,width,height;...".
@@ -143,12 +112,6 @@ Detector::Detector(const DetectorOptions& options) : options_(options) {
   ignored_ = ParseBoxes(options.ignore);
 }
 
-bool Detector::IsIgnored(const Vec2d& p) const {
-  return std::any_of(ignored_.begin(), ignored_.end(), [&p](const Box& b) {
-    return p.x >= b.left && p.y >= b.top && p.x <= b.left + b.width && p.y <= b.top + b.height;
-  });
-}
-
 double Detector::Window(int image_height) const {
   const double widest = std::max(16.0, kFirstWindowOverHeight * image_height);
   if (options_.window > 0) return options_.window;
@@ -183,12 +146,11 @@ BlobFrame Detector::Detect(int frame, const GrayImage& image) {
 }
 
 // Whether a patch's strongest pixel passes the threshold.
-bool Detector::StandsOut(const Component& c, const GrayImage& smooth,
-                         const LocalBackground& background, double sign,
-                         double least_contrast) const {
+bool Detector::StandsOut(const Component& c, const ContrastView& view,
+                         const LocalBackground& background, double least_contrast) const {
   for (const PixelRun& run : c.runs) {
     for (int u = run.first; u <= run.last; ++u) {
-      const double contrast = sign * (background.LevelAt(u, run.v) - smooth.Row(run.v)[u]);
+      const double contrast = view.sign * (view.level.At(u, run.v) - view.smooth.Row(run.v)[u]);
       if (contrast >= std::max(options_.threshold * background.NoiseAt(u, run.v), least_contrast)) {
         return true;
       }
@@ -199,77 +161,56 @@ bool Detector::StandsOut(const Component& c, const GrayImage& smooth,
 
 void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
   Fit(image.width, image.height, &smooth_);
-  const GrayImage& smooth = smooth_;
   cv::Mat smooth_view = View(smooth_);
   cv::GaussianBlur(View(image), smooth_view, cv::Size(3, 3), 0);
   const double window = Window(image.height);
   const LocalBackground background = EstimateBackground(
-      smooth, window, kLeastNoise, std::max(kLeastOutlier, kOutlierContrast * usual_contrast_));
+      smooth_, window, kLeastNoise, std::max(kLeastOutlier, kOutlierContrast * usual_contrast_));
 
-  const double sign = dark ? 1 : -1;
   const double least_contrast = options_.relative_contrast * usual_contrast_;
   std::vector<float> low(background.noise.size());
   for (std::size_t k = 0; k < low.size(); ++k) {
     low[k] = static_cast<float>(kLowOverHigh *
                                 std::max(options_.threshold * background.noise[k], least_contrast));
   }
-  MarkContrast(smooth, background, dark, low, &limit_, &mask_);
-  const std::vector<Component> components = FindComponents(mask_);
+  MarkContrast(smooth_, background, dark, low, &limit_, &mask_);
 
-  std::vector<float> contrast, raw;
-  for (const Component& c : components) {
+  const LevelTable level(background, image.width, image.height);
+  const ContrastView view{image, smooth_, level, dark ? 1.0 : -1.0};
+  for (const Component& c : FindComponents(mask_)) {
     if (c.area < options_.min_area) {
-      found->specks += StandsOut(c, smooth, background, sign, least_contrast) ? 1 : 0;
+      found->specks += StandsOut(c, view, background, least_contrast) ? 1 : 0;
       continue;
     }
-    const int width = c.right - c.left + 1, height = c.bottom - c.top + 1;
-    if (width > image.width / 2 && height > image.height / 2) continue;
-    contrast.assign(static_cast<std::size_t>(width) * height, 0);
-    raw.assign(contrast.size(), 0);
-    float peak = 0;
-    for (const PixelRun& run : c.runs) {
-      for (int u = run.first; u <= run.last; ++u) {
-        const double level = background.LevelAt(u, run.v);
-        const std::size_t k = static_cast<std::size_t>(run.v - c.top) * width + (u - c.left);
-        contrast[k] = static_cast<float>(std::max(sign * (level - smooth.Row(run.v)[u]), 0.01));
-        raw[k] = static_cast<float>(std::max(sign * (level - image.Row(run.v)[u]), 0.01));
-        peak = std::max(peak, contrast[k]);
-      }
-    }
+    if (c.right - c.left >= image.width / 2 && c.bottom - c.top >= image.height / 2) continue;
     const double noise = background.NoiseAt(0.5 * (c.left + c.right), 0.5 * (c.top + c.bottom));
-    const double high = std::max(options_.threshold * noise, least_contrast);
-    if (peak < high) continue;
+    const std::size_t first = found->blobs.size();
+    cutter_.Append(c, view,
+                   {.noise = noise,
+                    .least_peak = std::max(options_.threshold * noise, least_contrast),
+                    .min_area = options_.min_area,
+                    .longest_side = kLongestOverWindow * window},
+                   found);
+    if (!ignored_.empty()) DropIgnored(first, found);
+  }
+}
 
-    WatershedOptions watershed;
-    watershed.least_dip = std::max(4 * noise, 0.5 * high);
-    int parts = 0;
-    const std::vector<int> part = CutAtSaddles(contrast, width, height, watershed, &parts);
-    for (int p = 0; p < parts; ++p) {
-      const std::size_t first = found->pixels.size();
-      float part_peak = 0;
-      for (int k = 0; k < width * height; ++k) {
-        if (part[k] != p) continue;
-        part_peak = std::max(part_peak, contrast[k]);
-        found->pixels.push_back({static_cast<float>(c.left + k % width),
-                                 static_cast<float>(c.top + k / width), raw[k]});
-      }
-      Blob blob = Measure(*found, first);
-      blob.peak = part_peak;
-      blob.snr = part_peak / noise;
-      blob.cut = parts > 1;
-      const Box& box = blob.box;
-      blob.edges.left = box.left < 0;
-      blob.edges.top = box.top < 0;
-      blob.edges.right = box.left + box.width > image.width - 1;
-      blob.edges.bottom = box.top + box.height > image.height - 1;
-      if (IsIgnored(blob.center) || part_peak < high ||
-          static_cast<int>(blob.pixel_count) < options_.min_area ||
-          std::max(blob.box.width, blob.box.height) > kLongestOverWindow * window) {
-        found->pixels.resize(first);
-        continue;
-      }
-      found->blobs.push_back(blob);
+// Of the blobs from `first` on, with their pixels.
+void Detector::DropIgnored(std::size_t first, BlobFrame* found) const {
+  const auto is_ignored = [this](const Vec2d& p) {
+    return std::any_of(ignored_.begin(), ignored_.end(), [&p](const Box& b) {
+      return p.x >= b.left && p.y >= b.top && p.x <= b.left + b.width && p.y <= b.top + b.height;
+    });
+  };
+  for (std::size_t k = found->blobs.size(); k-- > first;) {
+    const Blob& blob = found->blobs[k];
+    if (!is_ignored(blob.center)) continue;
+    const auto begin = found->pixels.begin() + blob.first_pixel;
+    found->pixels.erase(begin, begin + blob.pixel_count);
+    for (std::size_t later = k + 1; later < found->blobs.size(); ++later) {
+      found->blobs[later].first_pixel -= blob.pixel_count;
     }
+    found->blobs.erase(found->blobs.begin() + static_cast<std::ptrdiff_t>(k));
   }
 }
 

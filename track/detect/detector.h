@@ -13,6 +13,7 @@
 #ifndef FLOCKLIFT_TRACK_DETECT_DETECTOR_H_
 #define FLOCKLIFT_TRACK_DETECT_DETECTOR_H_
 
+#include <cstddef>
 #include <deque>
 #include <span>
 #include <string>
@@ -22,7 +23,7 @@
 #include "track/detect/background.h"
 #include "track/detect/blob.h"
 #include "track/detect/components.h"
-#include "track/detect/watershed.h"
+#include "track/detect/patch_blobs.h"
 #include "track/gray_image.h"
 
 namespace flocklift {
@@ -70,10 +71,10 @@ class Detector {
     double mass = 0, peak = 0, length = 0;
   };
 
-  bool IsIgnored(const Vec2d& p) const;
-  bool StandsOut(const Component& component, const GrayImage& smooth,
-                 const LocalBackground& background, double sign, double least_contrast) const;
+  bool StandsOut(const Component& component, const ContrastView& view,
+                 const LocalBackground& background, double least_contrast) const;
   void FindBlobs(const GrayImage& image, bool dark, BlobFrame* found);
+  void DropIgnored(std::size_t first, BlobFrame* found) const;
   void Remember(const BlobFrame& found);
   double Window(int image_height) const;
 
@@ -83,6 +84,7 @@ class Detector {
   double usual_length_ = 0, usual_contrast_ = 0;  // 0: not known yet
   std::deque<Trace> recent_;
   int frames_since_summary_ = 0;
+  PatchCutter cutter_;
   GrayImage smooth_, limit_, mask_;  // kept, so that no frame allocates them anew
 };
 

@@ -11,6 +11,8 @@
 namespace flocklift {
 namespace {
 
+constexpr double kLeastWeight = 1e-6;  // of a mode, to the best one
+
 // Mean and covariance of a mixture; the covariance, one for both axes, takes the mean of the axes'
 // spreads.
 MotionState MomentMatched(std::span<const MotionState> modes, std::span<const double> weights) {
@@ -63,32 +65,32 @@ void MotionFilter::Predict(double q, int frames) {
 }
 
 void MotionFilter::Update(const Vec2d& z, double r) {
-  std::array<double, kModes> log_weights;
+  std::array<double, kModes> squared;
+  for (int m = 0; m < kModes; ++m) squared[m] = SquaredInnovation(modes_[m], z, r);
+  const double nearest = *std::min_element(squared.begin(), squared.end());
   for (int m = 0; m < kModes; ++m) {
-    log_weights[m] = std::log(weights_[m]) - 0.5 * SquaredInnovation(modes_[m], z, r) -
-                     std::log(modes_[m].pp + r);
+    weights_[m] *= std::exp(-0.5 * (squared[m] - nearest)) / (modes_[m].pp + r);
     flocklift::Update(&modes_[m], z, r);
   }
-  const double best = *std::max_element(log_weights.begin(), log_weights.end());
+  const double best = *std::max_element(weights_.begin(), weights_.end());
   double sum = 0;
-  for (int m = 0; m < kModes; ++m) {
-    weights_[m] = std::max(std::exp(log_weights[m] - best), 1e-6);
-    sum += weights_[m];
+  for (double& w : weights_) {
+    w = std::max(w / best, kLeastWeight);
+    sum += w;
   }
   for (double& w : weights_) w /= sum;
   mean_ = MomentMatched(modes_, weights_);
 }
 
 double MotionFilter::NegativeLogLikelihood(const Vec2d& z, double r) const {
-  std::array<double, kModes> terms;
-  for (int m = 0; m < kModes; ++m) {
-    terms[m] = std::log(weights_[m]) - 0.5 * SquaredInnovation(modes_[m], z, r) -
-               std::log(2 * std::numbers::pi * (modes_[m].pp + r));
-  }
-  const double best = *std::max_element(terms.begin(), terms.end());
+  std::array<double, kModes> squared;
+  for (int m = 0; m < kModes; ++m) squared[m] = SquaredInnovation(modes_[m], z, r);
+  const double nearest = *std::min_element(squared.begin(), squared.end());
   double sum = 0;
-  for (const double t : terms) sum += std::exp(t - best);
-  return -best - std::log(sum);
+  for (int m = 0; m < kModes; ++m) {
+    sum += weights_[m] * std::exp(-0.5 * (squared[m] - nearest)) / (modes_[m].pp + r);
+  }
+  return 0.5 * nearest - std::log(sum / (2 * std::numbers::pi));
 }
 
 double MotionFilter::agility() const {

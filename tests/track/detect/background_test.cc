@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/track/pictures.h"
 
 namespace flocklift {
@@ -52,6 +54,20 @@ TEST(BackgroundTest, NoiseHasAFloor) {
   const LocalBackground background =
       EstimateBackground(DrawPicture(320, 240, {.level = 100}, {}), 40, 0.7, 2);
   EXPECT_FLOAT_EQ(static_cast<float>(background.NoiseAt(100, 100)), 0.7f);
+}
+
+TEST(BackgroundTest, TheTableHoldsTheLevelOfEveryPixel) {
+  const Sky sky{.level = 120, .gradient_x = 0.2, .gradient_y = -0.1, .noise = 3};
+  for (const auto& [width, height] : {std::pair{250, 241}, {7, 3}, {1, 1}}) {
+    const LocalBackground background =
+        EstimateBackground(DrawPicture(width, height, sky, {}), 40, 0.7, 2);
+    const LevelTable table(background, width, height);
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) {
+        ASSERT_NEAR(table.At(u, v), background.LevelAt(u, v), 1e-3) << u << ' ' << v;
+      }
+    }
+  }
 }
 
 TEST(BackgroundTest, TinyPicturesHaveABackground) {

@@ -99,5 +99,15 @@ TEST(CameraMotionTest, AutoLeavesARestingCameraAlone) {
   EXPECT_THROW(CameraMotion({.camera = "flies"}), std::invalid_argument);
 }
 
+TEST(CameraMotionTest, AutoNoticesACameraThatRestedForLong) {
+  CameraMotion motion({});
+  const GrayImage resting = Ridge({}, 1, 1);
+  for (int frame = 0; frame < 260; ++frame) motion.Next(resting, {});
+  EXPECT_FALSE(motion.moves());
+  const GrayImage shifted = Ridge(Camera(0, 3, 0), 1, 2);
+  for (int frame = 0; frame < 80; ++frame) motion.Next(frame % 2 == 0 ? shifted : resting, {});
+  EXPECT_TRUE(motion.moves());
+}
+
 }  // namespace
 }  // namespace flocklift

@@ -55,6 +55,35 @@ TEST(WatershedTest, ASpeckBesideAnAnimalIsNotCutOff) {
             1);
 }
 
+TEST(WatershedTest, ManyPeaksOfNoiseAreNoParts) {
+  // Peaks that cannot stand apart are looked over; those that can are found all the same.
+  for (const int count : {1, 2}) {
+    std::vector<float> contrast =
+        Contrast(count == 1 ? std::vector<SoftBlob>{{.center = {15, 12}}}
+                            : std::vector<SoftBlob>{{.center = {13, 12}}, {.center = {24, 12}}});
+    Rng rng(3);
+    for (float& c : contrast) c = c > 0 ? c + static_cast<float>(rng.Uniform(0, 3)) : 0;
+    int parts = 0;
+    CutAtSaddles(contrast, kWidth, kHeight, {}, &parts);
+    EXPECT_EQ(parts, count);
+  }
+}
+
+TEST(WatershedTest, NothingHasNoPart) {
+  int parts = 1;
+  const std::vector<int> part = CutAtSaddles(std::vector<float>(12, 0.0f), 4, 3, {}, &parts);
+  EXPECT_EQ(parts, 0);
+  EXPECT_EQ(part, std::vector<int>(12, -1));
+}
+
+TEST(WatershedTest, PlateausAreOnePeak) {
+  std::vector<float> contrast(kWidth * kHeight, 0);
+  for (int u = 5; u < 20; ++u) contrast[12 * kWidth + u] = 50;
+  int parts = 0;
+  CutAtSaddles(contrast, kWidth, kHeight, {}, &parts);
+  EXPECT_EQ(parts, 1);
+}
+
 TEST(WatershedTest, ThreeInARow) {
   EXPECT_EQ(Parts({{.center = {8, 12}}, {.center = {16, 12}}, {.center = {24, 12}}}), 3);
 }
