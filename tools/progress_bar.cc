@@ -33,14 +33,18 @@ ProgressBar::~ProgressBar() {
 void ProgressBar::Update(std::int64_t done, std::int64_t total) {
   using Seconds = std::chrono::duration<double>;
   const auto now = std::chrono::steady_clock::now();
+  if (!first_done_) {  // of work that goes on, what was done before took no time now
+    first_done_ = done;
+    start_ = now;
+  }
   if (Seconds(now - last_).count() < (terminal_ ? 0.1 : 5.0)) return;
   last_ = now;
   const double elapsed = Seconds(now - start_).count();
-  const double rate = static_cast<double>(done) / std::max(elapsed, 1e-9);
+  const double rate = static_cast<double>(done - *first_done_) / std::max(elapsed, 1e-9);
   std::string text = fmt::format("{}: {}", title_, done);
   if (total > 0) text += fmt::format("/{}", total);
   text += fmt::format(" {}, {:.3g}/s", unit_, rate);
-  if (total > 0 && done > 0) {
+  if (total > 0 && rate > 0) {
     text += ", " + DurationText(static_cast<double>(total - done) / rate) + " left";
   }
   if (!terminal_) {

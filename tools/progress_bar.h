@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace flocklift {
@@ -26,6 +27,7 @@ class ProgressBar {
   std::string title_, unit_;
   bool terminal_;
   bool drawn_ = false;
+  std::optional<std::int64_t> first_done_;  // at the first call
   std::chrono::steady_clock::time_point start_, last_;
 };
 

@@ -31,7 +31,8 @@ namespace fs = std::filesystem;
 void SetFigures(const TrackerReport& report, const Tracks& tracks, Stage* stage) {
   const TrackerTimings& t = report.timings;
   nlohmann::ordered_json figures = {
-      {"frames_per_second", static_cast<double>(report.frames) / std::max(t.total_s, 1e-9)},
+      {"frames_per_second",
+       static_cast<double>(report.frames - report.frames_before) / std::max(t.total_s, 1e-9)},
       {"ids", tracks.tracklets.size()},
       {"frames", report.frames},
       {"detections", report.detections},
@@ -153,7 +154,8 @@ void RunTrack(const TrackCommand& command, const CommonOptions& common) {
 
   const Progress progress = stage.BeginPhase("track");
   TrackerResult result = command.from.empty()
-                             ? TrackVideo(command.tracker, command.video, progress, common.fps)
+                             ? TrackVideo(command.tracker, command.video, progress, common.fps,
+                                          {.folder = common.out / ".track-checkpoint"})
                              : TrackFrom(command, common, &stage);
   if (!corrections.empty()) {
     stage.BeginPhase("correct");

@@ -7,8 +7,10 @@
 #ifndef FLOCKLIFT_TRACK_CAMERA_PATH_H_
 #define FLOCKLIFT_TRACK_CAMERA_PATH_H_
 
+#include <cstdint>
 #include <map>
 
+#include "simulate/core/state_archive.h"
 #include "track/detect/blob.h"
 #include "track/detect/similarity.h"
 
@@ -28,6 +30,25 @@ class CameraPath {
     return rests() ? p : WorldFromImage(frame).Inverse() * p;
   }
   Vec2d ToWorld(int frame, const Vec2d& p) const { return rests() ? p : WorldFromImage(frame) * p; }
+
+  void Save(StateWriter* state) const {
+    state->Put(static_cast<std::uint64_t>(by_frame_.size()));
+    for (const auto& [frame, world_from_image] : by_frame_) {
+      state->Put(frame);
+      state->Put(world_from_image);
+    }
+  }
+  void Load(StateReader* state) {
+    std::uint64_t count = 0;
+    state->Take(&count);
+    for (; count > 0; --count) {
+      int frame = 0;
+      Similarity world_from_image;
+      state->Take(&frame);
+      state->Take(&world_from_image);
+      by_frame_.emplace_hint(by_frame_.end(), frame, world_from_image);
+    }
+  }
 
  private:
   std::map<int, Similarity> by_frame_;

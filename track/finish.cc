@@ -160,6 +160,8 @@ Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
       tracklet.detections.push_back(row);
     }
     report->rows += static_cast<std::int64_t>(tracklet.detections.size());
+    tracklet.detections.shrink_to_fit();
+    std::vector<TrackPoint>().swap(record.sightings);  // long footage: no row stands here twice
     tracks.tracklets.push_back(std::move(tracklet));
   }
   report->suspicions = RankSuspicions(records, ids);

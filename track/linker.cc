@@ -50,6 +50,23 @@ void Linker::Step(const BlobFrame& frame) {
   tracker_->SetNoise(noise_);
 }
 
+void Linker::Save(StateWriter* state, StateWriter* log) {
+  state->Put(noise_);
+  state->Put(separability_);
+  state->Put(steps_);
+  camera_.Save(state);
+  tracker_->Save(state, log);
+}
+
+void Linker::Load(StateReader* state, std::string_view log) {
+  state->Take(&noise_);
+  state->Take(&separability_);
+  state->Take(&steps_);
+  camera_.Load(state);
+  tracker_.emplace(options_.associate, noise_, width_, height_);
+  tracker_->Load(state, log);
+}
+
 TrackerResult Linker::Finish(std::optional<double> fps, TrackerReport report) {
   double seconds = 0;
   TrackerResult result = Timed(&seconds, [&] {

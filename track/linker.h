@@ -8,6 +8,7 @@
 #define FLOCKLIFT_TRACK_LINKER_H_
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "track/associate/flock_tracker.h"
@@ -26,6 +27,12 @@ class Linker {
 
   // Whether the first frames have shown that the animals cannot be told apart: nothing is linked.
   bool has_declined() const { return !separability_.is_enough; }
+
+  // Whether there is a state to save: not while the first frames are kept.
+  bool CanSave() const { return tracker_.has_value(); }
+  // As FlockTracker's.
+  void Save(StateWriter* state, StateWriter* log);
+  void Load(StateReader* state, std::string_view log);
 
   // Call once, at the end. `report` holds what is known of the detection; its counts go on.
   TrackerResult Finish(std::optional<double> fps, TrackerReport report);

@@ -5,26 +5,33 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <utility>
 
 #include "simulate/core/check.h"
+#include "simulate/core/state_archive.h"
 #include "track/bounded_queue.h"
 #include "track/linker.h"
 #include "track/stopwatch.h"
+#include "track/track_checkpoint.h"
 #include "track/video_source.h"
 
 namespace flocklift {
 namespace {
 
+using internal::BoundedQueue;
 using internal::Linker;
 using internal::Stopwatch;
 using internal::Timed;
+using internal::TrackCheckpoint;
 
 constexpr std::size_t kLearnImages = 24;  // at the start, for the detector
 constexpr std::size_t kLearnStride = 2;   // of these, every second one
 constexpr std::size_t kQueued = 6;        // frames between two threads
+constexpr int kSaveStride = 50;           // frames, of which one can be gone on from
 
 // Pictures whose memory is used again.
 class SparePictures {
@@ -46,95 +53,171 @@ class SparePictures {
   std::vector<GrayImage> pictures_;
 };
 
+// What was found in a frame; in one of some frames, what the finder knows after it.
+struct Found {
+  BlobFrame blobs;
+  std::string state;
+};
+
+// Detector and camera motion, frame by frame.
+class Finder {
+ public:
+  Finder(const TrackerOptions& options, bool is_saved, TrackerTimings* timings)
+      : detector(options.detect), is_saved_(is_saved), timings_(timings), camera_(options.camera) {}
+
+  void Learn(const std::vector<GrayImage>& images) {
+    std::vector<GrayImage> some;
+    for (std::size_t k = 0; k < images.size(); k += kLearnStride) some.push_back(images[k]);
+    Timed(&timings_->detect_s, [&] { detector.Learn(some); });
+  }
+  Found Find(const GrayImage& image) {
+    Found found;
+    ++frame_;
+    found.blobs = Timed(&timings_->detect_s, [&] { return detector.Detect(frame_, image); });
+    found.blobs.world_from_image =
+        Timed(&timings_->camera_s, [&] { return camera_.Next(image, found.blobs); });
+    if (is_saved_ && frame_ % kSaveStride == 0) {
+      StateWriter state;
+      state.Put(frame_);
+      detector.Save(&state);
+      camera_.Save(&state);
+      found.state = state.bytes();
+    }
+    return found;
+  }
+  void Load(StateReader* state) {
+    state->Take(&frame_);
+    detector.Load(state);
+    camera_.Load(state);
+  }
+
+  Detector detector;
+
+ private:
+  bool is_saved_;
+  TrackerTimings* timings_;
+  CameraMotion camera_;
+  int frame_ = 0;
+};
+
+// The next frames, until there are none or nobody wants them.
+void Decode(VideoSource* video, TrackerTimings* timings, SparePictures* spare,
+            BoundedQueue<GrayImage>* images) {
+  GrayImage image;
+  while (Timed(&timings->decode_s, [&] { return video->Read(&image); })) {
+    if (!images->Push(std::move(image))) return;
+    image = spare->Take();
+  }
+}
+
+void FindAll(bool has_learned, BoundedQueue<GrayImage>* images, SparePictures* spare,
+             Finder* finder, BoundedQueue<Found>* found) {
+  std::vector<GrayImage> first;
+  if (!has_learned) {
+    while (first.size() < kLearnImages) {
+      std::optional<GrayImage> image = images->Pop();
+      if (!image) break;
+      first.push_back(std::move(*image));
+    }
+    finder->Learn(first);
+  }
+  const auto find = [&](GrayImage image) {
+    const bool wanted = found->Push(finder->Find(image));
+    spare->Give(std::move(image));
+    return wanted;
+  };
+  for (GrayImage& image : first) {
+    if (!find(std::move(image))) return;
+  }
+  while (std::optional<GrayImage> image = images->Pop()) {
+    if (!find(std::move(*image))) return;
+  }
+}
+
+// Runs `work` in a thread; `error` gets what it throws. `last` is done in any case.
+std::thread Run(std::exception_ptr* error, std::function<void()> work, std::function<void()> last) {
+  return std::thread([error, work = std::move(work), last = std::move(last)] {
+    try {
+      work();
+    } catch (...) {
+      *error = std::current_exception();
+    }
+    last();
+  });
+}
+
+// Sets all to where the checkpoint stands.
+void GoOn(const TrackCheckpoint::Saved& saved, VideoSource* video, Finder* finder, Linker* linker,
+          TrackerReport* report) {
+  StateReader state(saved.state);
+  finder->Load(&state);
+  state.Take(&report->detections);
+  linker->Load(&state, saved.log);
+  report->frames = saved.frame;
+  video->Skip(saved.frame);
+}
+
+void Save(const std::string& finder_state, const TrackerReport& report, Linker* linker,
+          TrackCheckpoint* checkpoint) {
+  StateWriter state, log;
+  state.Put(report.detections);
+  linker->Save(&state, &log);
+  checkpoint->Keep(report.frames, finder_state + state.bytes(), log.bytes());
+}
+
 }  // namespace
 
 TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::path& path,
-                         const Progress& progress, std::optional<double> fps) {
+                         const Progress& progress, std::optional<double> fps,
+                         const CheckpointPlace& place) {
   CheckOptions(options);
   const Stopwatch total;
   VideoSource video(path);
-  const double width = video.width(), height = video.height();
   const std::int64_t declared = video.frame_count().value_or(0);
   TrackerReport report;
+  TrackerTimings timings;
+  const bool is_saved = !place.folder.empty();
+  TrackCheckpoint checkpoint(place, is_saved ? internal::FingerprintOf(options, path) : "");
+  Finder finder(options, is_saved, &timings);
+  Linker linker(options, video.width(), video.height());
+  const std::optional<TrackCheckpoint::Saved> saved = checkpoint.Load();
+  if (saved) GoOn(*saved, &video, &finder, &linker, &report);
+  const std::int64_t frames_before = report.frames;
 
   SparePictures spare;
-  internal::BoundedQueue<GrayImage> images(kQueued);
-  internal::BoundedQueue<BlobFrame> blob_frames(4 * kQueued);
-  std::exception_ptr decode_error, detect_error;
-  TrackerTimings timings;
-  Detector detector(options.detect);
-  CameraMotion camera(options.camera);
-
-  std::thread decoder([&] {
-    try {
-      GrayImage image;
-      while (Timed(&timings.decode_s, [&] { return video.Read(&image); })) {
-        if (!images.Push(std::move(image))) break;
-        image = spare.Take();
-      }
-    } catch (...) {
-      decode_error = std::current_exception();
-    }
-    images.Close();
-  });
-  std::thread finder([&] {
-    try {
-      std::vector<GrayImage> first;
-      while (first.size() < kLearnImages) {
-        std::optional<GrayImage> image = images.Pop();
-        if (!image) break;
-        first.push_back(std::move(*image));
-      }
-      std::vector<GrayImage> some;
-      for (std::size_t k = 0; k < first.size(); k += kLearnStride) some.push_back(first[k]);
-      Timed(&timings.detect_s, [&] { detector.Learn(some); });
-      some.clear();
-      int number = 0;
-      const auto detect = [&](const GrayImage& image) {
-        ++number;
-        BlobFrame found = Timed(&timings.detect_s, [&] { return detector.Detect(number, image); });
-        found.world_from_image =
-            Timed(&timings.camera_s, [&] { return camera.Next(image, found); });
-        return blob_frames.Push(std::move(found));
-      };
-      bool wanted = true;
-      for (GrayImage& image : first) {
-        wanted = wanted && detect(image);
-        spare.Give(std::move(image));
-      }
-      while (wanted) {
-        std::optional<GrayImage> image = images.Pop();
-        if (!image) break;
-        wanted = detect(*image);
-        spare.Give(std::move(*image));
-      }
-    } catch (...) {
-      detect_error = std::current_exception();
-    }
-    images.Close();
-    blob_frames.Close();
-  });
-
-  Linker linker(options, width, height);
-  std::exception_ptr link_error;
+  BoundedQueue<GrayImage> images(kQueued);
+  BoundedQueue<Found> all_found(4 * kQueued);
+  std::exception_ptr decode_error, find_error, link_error;
+  std::thread decoder = Run(
+      &decode_error, [&] { Decode(&video, &timings, &spare, &images); }, [&] { images.Close(); });
+  std::thread find_thread = Run(
+      &find_error, [&] { FindAll(saved.has_value(), &images, &spare, &finder, &all_found); },
+      [&] {
+        images.Close();
+        all_found.Close();
+      });
   try {
-    while (std::optional<BlobFrame> frame = blob_frames.Pop()) {
+    while (std::optional<Found> found = all_found.Pop()) {
       ++report.frames;
-      report.detections += static_cast<std::int64_t>(frame->blobs.size());
-      Timed(&timings.associate_s, [&] { linker.Add(std::move(*frame)); });
+      report.detections += static_cast<std::int64_t>(found->blobs.blobs.size());
+      Timed(&timings.associate_s, [&] { linker.Add(std::move(found->blobs)); });
+      if (!found->state.empty() && linker.CanSave() && checkpoint.IsDue()) {
+        Save(found->state, report, &linker, &checkpoint);
+      }
       Report(progress, report.frames, declared);
     }
   } catch (...) {
     link_error = std::current_exception();
   }
-  blob_frames.Close();
+  all_found.Close();
   images.Close();
-  finder.join();
+  find_thread.join();
   decoder.join();
-  for (const std::exception_ptr& error : {decode_error, detect_error, link_error}) {
+  for (const std::exception_ptr& error : {decode_error, find_error, link_error}) {
     if (error) std::rethrow_exception(error);
   }
 
+  const Detector& detector = finder.detector;
   report.timings = timings;
   report.usual_length_px = detector.usual_length();
   report.usual_contrast = detector.usual_contrast();
@@ -146,7 +229,9 @@ TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::p
                               " could be read");
   }
   TrackerResult result = linker.Finish(fps ? fps : video.fps(), std::move(report));
+  checkpoint.Remove();
   result.report.timings.total_s = total.Seconds();
+  result.report.frames_before = frames_before;
   return result;
 }
 

@@ -8,6 +8,7 @@
 #ifndef FLOCKLIFT_TRACK_TRACKER_H_
 #define FLOCKLIFT_TRACK_TRACKER_H_
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -58,6 +59,7 @@ struct TrackerTimings {
 
 struct TrackerReport {
   std::int64_t frames = 0;
+  std::int64_t frames_before = 0;     // of these, of a run before that was killed
   std::int64_t detections = 0;        // blobs
   std::int64_t rows = 0;              // of all tracks
   std::int64_t shared_rows = 0;       // of these, from blobs that held several animals
@@ -81,10 +83,19 @@ struct TrackerResult {
   TrackerReport report;
 };
 
+// Where a run keeps what it goes on from when it is killed; not an option, as it decides no byte.
+struct CheckpointPlace {
+  std::filesystem::path folder = {};  // empty: nothing is kept
+  std::chrono::seconds every{20};     // of wall time
+};
+
 // Tracks what a video shows. Memory: a few dozen frames, and the tracks. `fps` overrides the
-// video's. Throws InputError when there is nothing to read (video_source.h).
+// video's. A run that was killed goes on from its checkpoint and ends with the same bytes; the
+// checkpoint is removed at the end. Throws InputError when there is nothing to read
+// (video_source.h).
 TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::path& path,
-                         const Progress& progress = {}, std::optional<double> fps = {});
+                         const Progress& progress = {}, std::optional<double> fps = {},
+                         const CheckpointPlace& checkpoint = {});
 
 // Links detections that somebody else made, of a picture of the given size. `frames` by increasing
 // frame.

@@ -160,6 +160,22 @@ class VideoSource::Impl {
     return &frame_;
   }
 
+  bool Skip(std::int64_t frames) {
+    if (frames > 0 && has_ahead_) {
+      has_ahead_ = false;
+      --frames;
+    }
+    if (!pictures_.empty()) {
+      const std::size_t left = pictures_.size() - next_picture_;
+      next_picture_ += std::min(left, static_cast<std::size_t>(frames));
+      return left >= static_cast<std::size_t>(frames);
+    }
+    for (; frames > 0; --frames) {
+      if (!capture_.grab()) return false;
+    }
+    return true;
+  }
+
   int width() const { return width_; }
   int height() const { return height_; }
   std::optional<double> fps() const { return fps_; }
@@ -238,6 +254,8 @@ bool VideoSource::Read(Image* image) {
   frame->copyTo(cv::Mat(frame->rows, frame->cols, CV_8UC3, image->bgr.data()));
   return true;
 }
+
+bool VideoSource::Skip(std::int64_t frames) { return impl_->Skip(frames); }
 
 bool VideoSource::Read(GrayImage* image) {
   const cv::Mat* frame = impl_->Next();

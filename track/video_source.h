@@ -37,6 +37,9 @@ class VideoSource {
   bool Read(Image* image);
   bool Read(GrayImage* image);  // luma
 
+  // Passes over so many frames, without looking at them; false where there are fewer.
+  bool Skip(std::int64_t frames);
+
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;

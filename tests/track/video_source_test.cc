@@ -107,6 +107,27 @@ TEST_F(VideoSourceTest, VideoFile) {
   const std::vector<int> grays = GraysOf(path);
   ASSERT_EQ(grays.size(), 5u);
   for (int k = 0; k < 5; ++k) EXPECT_NEAR(grays[k], 40 * k, 3);
+
+  for (const int passed : {0, 1, 3}) {
+    VideoSource skipping(path);
+    ASSERT_TRUE(skipping.Skip(passed));
+    GrayImage image;
+    ASSERT_TRUE(skipping.Read(&image));
+    EXPECT_NEAR(image.pixels[0], 40 * passed, 3);
+  }
+  EXPECT_FALSE(VideoSource(path).Skip(6));
+}
+
+TEST_F(VideoSourceTest, PicturesArePassedOver) {
+  for (int k = 1; k <= 4; ++k) WritePicture("p" + std::to_string(k) + ".png", 10 * k);
+  VideoSource source(folder_);
+  ASSERT_TRUE(source.Skip(2));
+  GrayImage image;
+  ASSERT_TRUE(source.Read(&image));
+  EXPECT_EQ(image.pixels[0], 30);
+  EXPECT_TRUE(source.Skip(1));
+  EXPECT_FALSE(source.Read(&image));
+  EXPECT_FALSE(source.Skip(1));
 }
 
 TEST_F(VideoSourceTest, Faults) {

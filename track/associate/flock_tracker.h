@@ -10,9 +10,12 @@
 #ifndef FLOCKLIFT_TRACK_ASSOCIATE_FLOCK_TRACKER_H_
 #define FLOCKLIFT_TRACK_ASSOCIATE_FLOCK_TRACKER_H_
 
+#include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "simulate/core/options.h"
+#include "simulate/core/state_archive.h"
 #include "track/associate/doubt.h"
 #include "track/associate/share_blob.h"
 #include "track/detect/blob.h"
@@ -82,7 +85,17 @@ class FlockTracker {
   std::vector<Path> RecentPaths(int least) const;
   void SetNoise(const MotionNoise& noise) { noise_ = noise; }
 
+  // The state, to go on from later: `state` as a whole each time, `log` with the sightings since
+  // the last Save, to be appended to those before.
+  void Save(StateWriter* state, StateWriter* log);
+  // Throws std::runtime_error where the two do not fit together.
+  void Load(StateReader* state, std::string_view log);
+
  private:
+  // Under which number a track's sightings stand in the log, and how many.
+  struct Logged {
+    std::uint64_t number = 0, sightings = 0;
+  };
   struct Animal {
     MotionFilter motion;
     Moments moments;
@@ -91,6 +104,7 @@ class FlockTracker {
     int hidden = 0;                        // frames in a row
     int first_alone = 0, last_alone = -1;  // frames in which it had a whole blob of its own
     bool confirmed = false;
+    Logged logged = {};
   };
   // A blob, or one animal's share of a blob.
   struct Observation {
@@ -125,6 +139,8 @@ class FlockTracker {
   bool started_ = false;
   std::vector<Animal> animals_;
   std::vector<TrackRecord> finished_;
+  std::vector<Logged> finished_logged_;  // one each
+  std::uint64_t begun_ = 0;              // animals
 };
 
 }  // namespace flocklift

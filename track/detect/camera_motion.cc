@@ -156,4 +156,34 @@ void CameraMotion::Probe(bool is_moving) {
   until_probe_ = interval_;
 }
 
+void CameraMotion::Save(StateWriter* state) const {
+  state->Put(moves_);
+  for (const int value : {until_probe_, interval_, seen_moving_, quiet_}) state->Put(value);
+  state->Put(world_from_image_);
+  state->Put(has_before_);
+  if (!has_before_) return;
+  state->Put(before_.width);
+  state->Put(before_.height);
+  state->Put(before_.pixels);
+  state->Put(static_cast<std::uint64_t>(before_found_.blobs.size()));
+  for (const Blob& blob : before_found_.blobs) state->Put(blob.box);
+}
+
+void CameraMotion::Load(StateReader* state) {
+  state->Take(&moves_);
+  for (int* value : {&until_probe_, &interval_, &seen_moving_, &quiet_}) state->Take(value);
+  state->Take(&world_from_image_);
+  state->Take(&has_before_);
+  if (!has_before_) return;
+  int width = 0, height = 0;
+  state->Take(&width);
+  state->Take(&height);
+  before_ = GrayImage(width, height);
+  state->Take(&before_.pixels);
+  std::uint64_t count = 0;
+  state->Take(&count);
+  before_found_.blobs.assign(count, {});
+  for (Blob& blob : before_found_.blobs) state->Take(&blob.box);
+}
+
 }  // namespace flocklift

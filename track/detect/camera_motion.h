@@ -14,6 +14,7 @@
 #include <string>
 
 #include "simulate/core/options.h"
+#include "simulate/core/state_archive.h"
 #include "track/detect/blob.h"
 #include "track/detect/similarity.h"
 #include "track/gray_image.h"
@@ -44,6 +45,10 @@ class CameraMotion {
   Similarity Next(const GrayImage& image, const BlobFrame& found);
 
   bool moves() const { return moves_; }
+
+  // What was seen so far, to go on from later.
+  void Save(StateWriter* state) const;
+  void Load(StateReader* state);
 
  private:
   void Probe(bool is_moving);

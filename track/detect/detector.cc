@@ -230,4 +230,26 @@ void Detector::Remember(const BlobFrame& found) {
   });
 }
 
+void Detector::Save(StateWriter* state) const {
+  state->Put(dark_);
+  state->Put(bright_);
+  state->Put(usual_length_);
+  state->Put(usual_contrast_);
+  state->Put(frames_since_summary_);
+  state->Put(static_cast<std::uint64_t>(recent_.size()));
+  for (const Trace& trace : recent_) state->Put(trace);
+}
+
+void Detector::Load(StateReader* state) {
+  state->Take(&dark_);
+  state->Take(&bright_);
+  state->Take(&usual_length_);
+  state->Take(&usual_contrast_);
+  state->Take(&frames_since_summary_);
+  std::uint64_t count = 0;
+  state->Take(&count);
+  recent_.resize(count);
+  for (Trace& trace : recent_) state->Take(&trace);
+}
+
 }  // namespace flocklift

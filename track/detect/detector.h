@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "simulate/core/options.h"
+#include "simulate/core/state_archive.h"
 #include "track/detect/background.h"
 #include "track/detect/blob.h"
 #include "track/detect/components.h"
@@ -59,6 +60,10 @@ class Detector {
   void Learn(std::span<const GrayImage> images);
 
   BlobFrame Detect(int frame, const GrayImage& image);
+
+  // What was learned so far, to go on from later.
+  void Save(StateWriter* state) const;
+  void Load(StateReader* state);
 
   bool finds_dark() const { return dark_; }
   bool finds_bright() const { return bright_; }

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <stdexcept>
+#include <string>
 
 #include "tests/track/pictures.h"
 
@@ -191,6 +193,47 @@ TEST(FlockTrackerTest, SameInputSameTracks) {
       EXPECT_EQ(one[k].sightings[t].position, two[k].sightings[t].position);
     }
   }
+}
+
+// Animals that end, begin, and share a blob: the state is saved twice and restored once.
+TEST(FlockTrackerTest, GoesOnFromASavedState) {
+  const auto a = [](int t) { return t > 30 ? kNowhere : Vec2d{100 + 5.0 * t, 200 + 2.0 * t}; };
+  const auto b = [](int t) { return Vec2d{100 + 5.0 * t, 300 - 2.0 * t}; };
+  const auto c = [](int t) { return t < 25 ? kNowhere : Vec2d{500 - 3.0 * t, 100}; };
+  const std::vector<BlobFrame> frames = Film(60, {a, b, c});
+  FlockTracker whole({}, kNoise, kWidth, kHeight), first({}, kNoise, kWidth, kHeight);
+  std::string state, log;
+  for (const BlobFrame& frame : frames) {
+    whole.Step(frame);
+    if (frame.frame > 46) continue;
+    first.Step(frame);
+    if (frame.frame != 20 && frame.frame != 45) continue;
+    StateWriter state_out, log_out;
+    first.Save(&state_out, &log_out);
+    state = state_out.bytes();
+    log += log_out.bytes();
+  }
+  FlockTracker second({}, MotionNoise{}, kWidth, kHeight);
+  StateReader in(state);
+  second.Load(&in, log);
+  EXPECT_TRUE(in.AtEnd());
+  for (const BlobFrame& frame : frames) {
+    if (frame.frame > 45) second.Step(frame);
+  }
+  const auto wanted = whole.Finish(), is = second.Finish();
+  ASSERT_EQ(is.size(), wanted.size());
+  for (std::size_t k = 0; k < is.size(); ++k) {
+    EXPECT_EQ(is[k].size, wanted[k].size);
+    EXPECT_EQ(is[k].mass, wanted[k].mass);
+    ASSERT_EQ(is[k].sightings.size(), wanted[k].sightings.size());
+    for (std::size_t t = 0; t < is[k].sightings.size(); ++t) {
+      EXPECT_EQ(is[k].sightings[t].frame, wanted[k].sightings[t].frame);
+      EXPECT_EQ(is[k].sightings[t].position, wanted[k].sightings[t].position);
+      EXPECT_EQ(is[k].sightings[t].shared, wanted[k].sightings[t].shared);
+    }
+  }
+  StateReader again(state);
+  EXPECT_THROW(second.Load(&again, ""), std::runtime_error);
 }
 
 }  // namespace
