@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "simulate/core/check.h"
+#include "track/luma_decoder.h"
 
 namespace flocklift {
 namespace {
@@ -145,22 +146,41 @@ class VideoSource::Impl {
 
   // The next frame as OpenCV has it, valid until the next call; null after the last one.
   const cv::Mat* Next() {
+    FLOCKLIFT_DCHECK(!luma_);
+    is_begun_ = true;
     if (has_ahead_) {
       has_ahead_ = false;
       return &ahead_;
     }
     if (!Decode(&frame_)) return nullptr;
-    if (frame_.cols != width_ || frame_.rows != height_) {
-      throw InputError(current_.string(), 0,
-                       "the frame is " + std::to_string(frame_.cols) + " x " +
-                           std::to_string(frame_.rows) + " pixels, those before are " +
-                           std::to_string(width_) + " x " + std::to_string(height_),
-                       "bring all frames to one size");
-    }
+    CheckSize(frame_.cols, frame_.rows);
     return &frame_;
   }
 
+  // False after the last frame.
+  bool NextLuma(GrayImage* image) {
+    if (StartLuma()) {
+      if (!luma_->Read(image)) return false;
+      CheckSize(image->width, image->height);
+      return true;
+    }
+    const cv::Mat* frame = Next();
+    if (frame == nullptr) return false;
+    if (image->width != frame->cols || image->height != frame->rows) {
+      *image = GrayImage(frame->cols, frame->rows);
+    }
+    cv::Mat gray(frame->rows, frame->cols, CV_8UC1, image->pixels.data());
+    cv::cvtColor(*frame, gray, cv::COLOR_BGR2GRAY);
+    return true;
+  }
+
   bool Skip(std::int64_t frames) {
+    if (StartLuma()) {
+      for (; frames > 0; --frames) {
+        if (!luma_->Skip()) return false;
+      }
+      return true;
+    }
     if (frames > 0 && has_ahead_) {
       has_ahead_ = false;
       --frames;
@@ -185,6 +205,25 @@ class VideoSource::Impl {
   }
 
  private:
+  void CheckSize(int width, int height) const {
+    if (width == width_ && height == height_) return;
+    throw InputError(current_.string(), 0,
+                     "the frame is " + std::to_string(width) + " x " + std::to_string(height) +
+                         " pixels, those before are " + std::to_string(width_) + " x " +
+                         std::to_string(height_),
+                     "bring all frames to one size");
+  }
+
+  // Whether luma comes straight from the codec: decided at the first frame.
+  bool StartLuma() {
+    if (!is_begun_ && pictures_.empty()) {
+      luma_ = internal::LumaDecoder::Open(path_);
+      if (luma_) capture_.release();
+    }
+    is_begun_ = true;
+    return luma_ != nullptr;
+  }
+
   void OpenVideo() {
     // FFmpeg's own messages would stand beside our one line.
     setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
@@ -227,6 +266,8 @@ class VideoSource::Impl {
 
   fs::path path_;
   fs::path current_;
+  std::unique_ptr<internal::LumaDecoder> luma_;
+  bool is_begun_ = false;  // a frame was asked for
   std::vector<fs::path> pictures_;
   std::size_t next_picture_ = 0;
   cv::VideoCapture capture_;
@@ -257,15 +298,6 @@ bool VideoSource::Read(Image* image) {
 
 bool VideoSource::Skip(std::int64_t frames) { return impl_->Skip(frames); }
 
-bool VideoSource::Read(GrayImage* image) {
-  const cv::Mat* frame = impl_->Next();
-  if (frame == nullptr) return false;
-  if (image->width != frame->cols || image->height != frame->rows) {
-    *image = GrayImage(frame->cols, frame->rows);
-  }
-  cv::Mat gray(frame->rows, frame->cols, CV_8UC1, image->pixels.data());
-  cv::cvtColor(*frame, gray, cv::COLOR_BGR2GRAY);
-  return true;
-}
+bool VideoSource::Read(GrayImage* image) { return impl_->NextLuma(image); }
 
 }  // namespace flocklift

@@ -118,6 +118,38 @@ TEST_F(VideoSourceTest, VideoFile) {
   EXPECT_FALSE(VideoSource(path).Skip(6));
 }
 
+// Full range (Motion JPEG) and limited range (MPEG-4), which is spread.
+TEST_F(VideoSourceTest, LumaIsThatOfTheColours) {
+  for (const auto& [name, codec] : {std::pair{"full.avi", "MJPG"}, {"limited.mp4", "mp4v"}}) {
+    const fs::path path = folder_ / name;
+    {
+      cv::VideoWriter writer(path.string(),
+                             cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]), 25,
+                             cv::Size(64, 48));
+      ASSERT_TRUE(writer.isOpened());
+      for (int k = 0; k < 4; ++k) {
+        cv::Mat picture(48, 64, CV_8UC3);
+        for (int u = 0; u < 64; ++u) picture.col(u) = cv::Scalar::all(4 * u - 2 * k + 6);
+        writer.write(picture);
+      }
+    }
+    VideoSource in_color(path), as_luma(path);
+    Image color;
+    GrayImage luma;
+    int frames = 0;
+    for (; in_color.Read(&color); ++frames) {
+      ASSERT_TRUE(as_luma.Read(&luma));
+      for (int u = 0; u < 64; ++u) {
+        const auto* bgr = color.bgr.data() + static_cast<std::size_t>(3 * (24 * 64 + u));
+        const double gray = 0.114 * bgr[0] + 0.587 * bgr[1] + 0.299 * bgr[2];
+        EXPECT_NEAR(luma.Row(24)[u], gray, 2.5) << name << ' ' << u;
+      }
+    }
+    EXPECT_EQ(frames, 4);
+    EXPECT_FALSE(as_luma.Read(&luma));
+  }
+}
+
 TEST_F(VideoSourceTest, PicturesArePassedOver) {
   for (int k = 1; k <= 4; ++k) WritePicture("p" + std::to_string(k) + ".png", 10 * k);
   VideoSource source(folder_);

@@ -44,7 +44,7 @@ int Root(std::vector<int>* parent, int k) {
 
 }  // namespace
 
-std::vector<Component> FindComponents(const GrayImage& mask) {
+Components FindComponents(const GrayImage& mask) {
   std::vector<PixelRun> runs;
   std::vector<int> parent;
   std::size_t above_begin = 0, above_end = 0;  // runs of the row above
@@ -64,23 +64,36 @@ std::vector<Component> FindComponents(const GrayImage& mask) {
     above_end = runs.size();
   }
 
-  std::vector<Component> components;
-  std::vector<int> component_of_root(runs.size(), -1);
+  // Number the roots, count their runs, then put each run where its component's stand.
+  Components found;
+  std::vector<Component>& components = found.components_;
+  std::vector<int> index(runs.size(), -1), count;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    int& index = component_of_root[Root(&parent, static_cast<int>(k))];
+    const int root = Root(&parent, static_cast<int>(k));
     const PixelRun& run = runs[k];
-    if (index < 0) {
-      index = static_cast<int>(components.size());
+    if (index[root] < 0) {
+      index[root] = static_cast<int>(components.size());
       components.push_back({run.first, run.v, run.last, run.v, 0, {}});
+      count.push_back(0);
     }
-    Component& c = components[index];
+    index[k] = index[root];
+    Component& c = components[index[k]];
     c.left = std::min(c.left, run.first);
     c.right = std::max(c.right, run.last);
     c.bottom = run.v;
     c.area += run.last - run.first + 1;
-    c.runs.push_back(run);
+    ++count[index[k]];
   }
-  return components;
+  found.runs_.resize(runs.size());
+  std::vector<PixelRun*> next(components.size());
+  PixelRun* at = found.runs_.data();
+  for (std::size_t c = 0; c < components.size(); ++c) {
+    components[c].runs = {at, static_cast<std::size_t>(count[c])};
+    next[c] = at;
+    at += count[c];
+  }
+  for (std::size_t k = 0; k < runs.size(); ++k) *next[index[k]]++ = runs[k];
+  return found;
 }
 
 }  // namespace flocklift

@@ -6,6 +6,8 @@
 #ifndef FLOCKLIFT_TRACK_DETECT_COMPONENTS_H_
 #define FLOCKLIFT_TRACK_DETECT_COMPONENTS_H_
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "track/gray_image.h"
@@ -20,11 +22,31 @@ struct PixelRun {
 struct Component {
   int left = 0, top = 0, right = 0, bottom = 0;  // inclusive
   int area = 0;
-  std::vector<PixelRun> runs;  // by row, then column
+  std::span<const PixelRun> runs;  // by row, then column; of `Components`
 };
 
-// The components of the pixels that are not 0, in the order of their first pixel.
-std::vector<Component> FindComponents(const GrayImage& mask);
+// Holds the runs of all, component by component.
+class Components {
+ public:
+  Components() = default;
+  Components(Components&&) = default;
+  Components& operator=(Components&&) = default;
+
+  auto begin() const { return components_.begin(); }
+  auto end() const { return components_.end(); }
+  std::size_t size() const { return components_.size(); }
+  bool empty() const { return components_.empty(); }
+  const Component& operator[](std::size_t k) const { return components_[k]; }
+
+  // The components of the pixels that are not 0, in the order of their first pixel.
+  friend Components FindComponents(const GrayImage& mask);
+
+ private:
+  std::vector<PixelRun> runs_;
+  std::vector<Component> components_;
+};
+
+Components FindComponents(const GrayImage& mask);
 
 }  // namespace flocklift
 

@@ -139,9 +139,11 @@ void Detector::Learn(std::span<const GrayImage> images) {
 BlobFrame Detector::Detect(int frame, const GrayImage& image) {
   BlobFrame found;
   found.frame = frame;
+  found.pixels.reserve(usual_pixels_);
   if (dark_) FindBlobs(image, true, &found);
   if (bright_) FindBlobs(image, false, &found);
   Remember(found);
+  usual_pixels_ = found.pixels.size() + found.pixels.size() / 4;
   return found;
 }
 
@@ -177,7 +179,8 @@ void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
 
   const LevelTable level(background, image.width, image.height);
   const ContrastView view{image, smooth_, level, dark ? 1.0 : -1.0};
-  for (const Component& c : FindComponents(mask_)) {
+  const Components components = FindComponents(mask_);
+  for (const Component& c : components) {
     if (c.area < options_.min_area) {
       found->specks += StandsOut(c, view, background, least_contrast) ? 1 : 0;
       continue;

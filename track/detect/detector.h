@@ -89,6 +89,7 @@ class Detector {
   double usual_length_ = 0, usual_contrast_ = 0;  // 0: not known yet
   std::deque<Trace> recent_;
   int frames_since_summary_ = 0;
+  std::size_t usual_pixels_ = 0;  // of a frame's blobs, to reserve memory
   PatchCutter cutter_;
   GrayImage smooth_, limit_, mask_;  // kept, so that no frame allocates them anew
 };

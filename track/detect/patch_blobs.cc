@@ -76,15 +76,19 @@ void PatchCutter::Append(const Component& patch, const ContrastView& view, const
   const std::vector<int> part = CutAtSaddles(contrast_, width, height, watershed, &parts);
   for (int p = 0; p < parts; ++p) {
     const std::size_t first = found->pixels.size();
+    found->pixels.resize(first + static_cast<std::size_t>(patch.area));
+    BlobPixel* next = found->pixels.data() + first;
     float part_peak = 0;
-    for (int v = 0, k = 0; v < height; ++v) {
-      for (int u = 0; u < width; ++u, ++k) {
+    for (const PixelRun& run : patch.runs) {
+      const std::size_t row = static_cast<std::size_t>(run.v - patch.top) * width;
+      for (int u = run.first; u <= run.last; ++u) {
+        const std::size_t k = row + (u - patch.left);
         if (part[k] != p) continue;
         part_peak = std::max(part_peak, contrast_[k]);
-        found->pixels.push_back(
-            {static_cast<float>(patch.left + u), static_cast<float>(patch.top + v), raw_[k]});
+        *next++ = {static_cast<float>(u), static_cast<float>(run.v), raw_[k]};
       }
     }
+    found->pixels.resize(static_cast<std::size_t>(next - found->pixels.data()));
     Blob blob = Measure(*found, first);
     blob.peak = part_peak;
     blob.snr = part_peak / limits.noise;
