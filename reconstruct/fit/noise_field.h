@@ -4,12 +4,11 @@
 // Scale and gain of the curl noise that animals drift in, its seed unknown: the inverse problem
 // that X. Wang, X. Jin, Z. Deng, L. Zhou, "Inherent noise-aware insect swarm simulation" (2014)
 // leaves open. Of greatest marginal likelihood (noise_evidence.h), the rest's sd with them:
-//   1. correlation of velocities falls to half over kHalfCorrelation cells, whatever the seed,
-//   which
+//   1. correlation of velocities falls to half over kHalfCorrelation cells, whatever the seed: that
 //      gives the scale within a factor of two;
 //   2. within that, and beyond where the best is at its end, scales so close that no animal's place
-//   in the lattice moves by more than a
-//      small part of a cell, each with its best gain, on some of the animals;
+//      in the lattice moves by more than a small part of a cell, each with its best gain, on some
+//      of the animals;
 //   3. the best of them refined on all; animals off by many times the rest's sd, which something
 //      else moves, are left out. That saves a fit from a few; where they are 5 % or more, the gain
 //      comes out too high, by 15 to 20 % of the aggregation scene's without its goal.
