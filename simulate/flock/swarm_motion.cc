@@ -210,6 +210,10 @@ class SwarmMotion final : public Motion<T> {
   void TurnAtWalls(std::size_t first, std::size_t last, Herd<T>* herd) {
     if (p_.noise_kind() != SwarmNoiseKind::kCurl || job_.noise_count == 0) return;
     const T near = static_cast<T>(kNearWall * p_.cell);
+    std::vector<NoiseTerm<T>> terms;
+    for (const NoiseTerm<double>& term : noise_) {
+      terms.push_back({static_cast<T>(term.gain), static_cast<T>(term.scale), term.seed});
+    }
     for (std::size_t k = first; k < last; ++k) {
       const bool at_wall = guide_ && distance_[k] < near;
       if (!at_wall && !p_.goal_is_solid()) continue;
@@ -222,10 +226,6 @@ class SwarmMotion final : public Motion<T> {
         if (!wall || ball.value < wall->value) wall = ball;
       }
       if (!wall || wall->value > static_cast<T>(p_.cell)) continue;
-      std::vector<NoiseTerm<T>> terms;
-      for (const NoiseTerm<double>& term : noise_) {
-        terms.push_back({static_cast<T>(term.gain), static_cast<T>(term.scale), term.seed});
-      }
       Vec3<T> v = CurlNearWall(NoisePotential(terms, x), *wall, static_cast<T>(p_.cell));
       if (guide_) v += SampleGuide<T>(job_.guide, x).velocity;
       herd->now.Set(k, x, v);
