@@ -119,11 +119,8 @@ void SceneCheckpoint::AddCorners(std::span<const Vec3<float>> corners) {
                  static_cast<std::streamsize>(corners.size_bytes()));
 }
 
-void SceneCheckpoint::KeepIfDue(const Engine& engine, std::int64_t frame,
-                                const Trajectories& truth) {
-  if (folder_.empty() || std::chrono::steady_clock::now() - last_ < every_) return;
-  Keep(engine, frame, truth);
-  last_ = std::chrono::steady_clock::now();
+bool SceneCheckpoint::Due() const {
+  return !folder_.empty() && std::chrono::steady_clock::now() - last_ >= every_;
 }
 
 void SceneCheckpoint::Keep(const Engine& engine, std::int64_t frame, const Trajectories& truth) {
@@ -150,6 +147,7 @@ void SceneCheckpoint::Keep(const Engine& engine, std::int64_t frame, const Traje
   header.Put(frame);
   header.Put(static_cast<std::uint64_t>(frames));
   WriteTextFile(folder_ / "state", fingerprint_ + header.bytes() + engine.Save());
+  last_ = std::chrono::steady_clock::now();
 }
 
 void SceneCheckpoint::Remove() {

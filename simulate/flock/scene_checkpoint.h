@@ -38,9 +38,11 @@ class SceneCheckpoint {
   // Of the frame that was just recorded [m].
   void AddCorners(std::span<const Vec3<float>> corners);
 
-  // After `frame` was recorded and the engine took its steps: keeps the state when the last was
-  // long enough ago. Throws std::runtime_error when it cannot be written.
-  void KeepIfDue(const Engine& engine, std::int64_t frame, const Trajectories& truth);
+  // Whether the last state that was kept is old enough for another one.
+  bool Due() const;
+
+  // After `frame` was recorded and the engine took its steps: keeps the state. Throws
+  // std::runtime_error when it cannot be written.
   void Keep(const Engine& engine, std::int64_t frame, const Trajectories& truth);
 
   // The run is over.

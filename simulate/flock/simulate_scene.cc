@@ -13,6 +13,7 @@
 
 #include "simulate/core/check.h"
 #include "simulate/core/rigid3.h"
+#include "simulate/flock/frame_record.h"
 #include "simulate/flock/load_scene.h"
 #include "simulate/flock/scene_checkpoint.h"
 #include "simulate/flock/streams.h"
@@ -141,16 +142,6 @@ Quaternion Bank(const Vec3d& v, const Vec3d& a) {
   return QuaternionFromRotation(Rotation3d::FromRows(forward, Cross(up, forward), up).Inverse());
 }
 
-void Record(const FlockState& state, int frame, Trajectories* truth) {
-  for (std::size_t k = 0; k < state.size(); ++k) {
-    TrajectoryPoint point;
-    point.frame = frame;
-    point.position = state.position[k];
-    point.velocity = state.velocity[k];
-    truth->trajectories[k].points.push_back(point);
-  }
-}
-
 // Adds the time that `work` takes.
 template <typename Work>
 void Timed(double* wall_s, double* cpu_s, const Work& work) {
@@ -274,8 +265,9 @@ SceneResult SimulateScene(const Scene& scene, const SimulateOptions& options,
   SceneCheckpoint checkpoint(options.checkpoint, options.checkpoint_every, scene);
   std::int64_t frame = 1 - warmup_frames;
   checkpoint.Resume(&*engine, &frame, &result.truth, tetrahedra.get(), corners);
+  FrameRecord record(&result.truth);
   for (; frame <= frames; ++frame) {
-    if (frame > 0) Record(engine->State(), static_cast<int>(frame), &result.truth);
+    if (frame > 0) record.Add(static_cast<int>(frame), engine->State());
     if (frame > 0 && tetrahedra) {
       const std::vector<Vec3<float>> shape = engine->TetrahedraCorners();
       tetrahedra->AddFrame(shape);
@@ -286,9 +278,13 @@ SceneResult SimulateScene(const Scene& scene, const SimulateOptions& options,
         for (int k = 0; k < scene.substeps; ++k) engine->Step();
       });
     }
-    checkpoint.KeepIfDue(*engine, frame, result.truth);
+    if (checkpoint.Due()) {
+      record.Flush();
+      checkpoint.Keep(*engine, frame, result.truth);
+    }
     Report(progress, frame + warmup_frames, frames + warmup_frames);
   }
+  record.Flush();
   checkpoint.Remove();
   if (tetrahedra) tetrahedra->Finish();
   for (Trajectory& trajectory : result.truth.trajectories) AddOrientations(scene.fps, &trajectory);
