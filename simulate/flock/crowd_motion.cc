@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "simulate/core/check.h"
 #include "simulate/fields/wall_potential.h"
 #include "simulate/flock/force_passes.h"
 #include "simulate/flock/streams.h"
@@ -32,7 +31,10 @@ class CrowdMotion final : public Motion<T> {
     for (const GoalSpec& goal : world_->goals) {
       if (IsOwn(goal)) goals_.push_back({GoalPosition(goal, world_->time), goal.reach});
     }
-    Check(!goals_.empty(), "the model crowd needs a goal for the species " + species_);
+    if (goals_.empty()) {
+      RefuseModel(context, "the model crowd has no goal for the species " + species_,
+                  "add a [[goal]]");
+    }
     PrepareField();
     for (std::size_t k = 0; k < herd->size(); ++k) {
       const Vec3d x = Grounded(ToDouble(herd->now.Position(k)));

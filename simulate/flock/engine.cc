@@ -71,6 +71,17 @@ double SumOfNeighbours(const Herd<T>& herd) {
   return sum;
 }
 
+// What the model finds amiss is a fault of the scene's file, where the species comes from one.
+template <typename Work>
+auto BlameFile(const ModelSpec& spec, const Work& work) {
+  try {
+    return work();
+  } catch (const std::invalid_argument& error) {
+    if (spec.where.empty()) throw;
+    throw InputError(spec.where, 0, error.what(), "change the settings of this species");
+  }
+}
+
 ModelSpec Changed(ModelSpec spec, const ModelSpec& change) {
   if (!change.where.empty()) spec.where = change.where;
   for (const auto& [name, value] : change.parameters) spec.parameters[name] = value;
@@ -115,16 +126,17 @@ struct BasicEngine<T>::Impl {
       added.swarm = swarm;
       added.herd = MakeHerd<T>(swarm, agents, w.dimensions == 2);
       agents += swarm.position.size();
-      added.motion = MakeMotion<T>(swarm.model,
-                                   {.world = &world,
-                                    .species = swarm.species,
-                                    .shape = swarm.shape,
-                                    .path = swarm.path,
-                                    .start_shape = swarm.start_shape,
-                                    .forces = &added.swarm.forces,
-                                    .kernel = options.kernel,
-                                    .pool = &pool},
-                                   &added.herd);
+      const MotionContext context{.world = &world,
+                                  .species = swarm.species,
+                                  .shape = swarm.shape,
+                                  .path = swarm.path,
+                                  .start_shape = swarm.start_shape,
+                                  .forces = &added.swarm.forces,
+                                  .kernel = options.kernel,
+                                  .pool = &pool,
+                                  .where = swarm.spec.where};
+      added.motion =
+          BlameFile(swarm.spec, [&] { return MakeMotion<T>(swarm.model, context, &added.herd); });
       for (const EventSpec& event : w.events) {  // fails now rather than in the middle
         const bool concerns = event.species.empty() || event.species == swarm.species;
         if (concerns && ChangesModels(event)) ResolveModel(Changed(swarm.spec, event.change));
@@ -195,7 +207,7 @@ struct BasicEngine<T>::Impl {
   static void Change(const ModelSpec& change, Species<T>* s) {
     s->swarm.spec = Changed(s->swarm.spec, change);
     s->swarm.model = ResolveModel(s->swarm.spec);
-    s->motion->Retune(s->swarm.model);
+    BlameFile(s->swarm.spec, [&] { s->motion->Retune(s->swarm.model); });
   }
 
   void MoveGoal(std::size_t index, const Vec3d& position) {

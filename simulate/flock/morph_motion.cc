@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "simulate/core/check.h"
 #include "simulate/fields/distance_field.h"
 #include "simulate/shapes/morph_order.h"
 #include "simulate/shapes/spline_path.h"
@@ -21,12 +20,14 @@ constexpr double kKeyPointsPerLength = 200;  // of the whole path
 constexpr double kObstacleCells = 96;        // along the longest side of their bounding box
 constexpr double kRoomAboutObstacles = 0.1;  // of that side, beside their range
 
-const TriangleMesh& ShapeMesh(const World& world, const std::string& name, const char* setting) {
-  for (const ShapeInTime& shape : world.shapes) {
+// `name` is what the species' `setting` says.
+const TriangleMesh& ShapeMesh(const MotionContext& context, const std::string& name,
+                              const std::string& setting) {
+  for (const ShapeInTime& shape : context.world->shapes) {
     if (shape.name == name) return shape.meshes.front();
   }
-  throw std::invalid_argument(std::string("the model morph needs a ") + setting +
-                              ": the name of a [[shape]]");
+  RefuseModel(context, "the model morph of the species " + context.species + " has no " + setting,
+              "name a [[shape]]: " + setting + " = \"NAME\"");
 }
 
 std::vector<Tetra> FillWith(const TriangleMesh& mesh, std::size_t count) {
@@ -161,11 +162,13 @@ class MorphMotion final : public Motion<T> {
 
 MorphScene PrepareMorph(const MorphParameters& p, const MotionContext& context, std::size_t count) {
   const World& world = *context.world;
-  Check(context.forces == nullptr || context.forces->empty(),
-        "the model morph sets velocities: it takes no [[species.force]]");
+  if (context.forces != nullptr && !context.forces->empty()) {
+    RefuseModel(context, "the model morph sets velocities and takes no [[species.force]]",
+                "take the forces out");
+  }
   MorphScene scene;
-  scene.from = FillWith(ShapeMesh(world, context.start_shape, "start_shape"), count);
-  scene.to = FillWith(ShapeMesh(world, context.shape, "shape"), count);
+  scene.from = FillWith(ShapeMesh(context, context.start_shape, "start"), count);
+  scene.to = FillWith(ShapeMesh(context, context.shape, "shape"), count);
   scene.path = KeyPoints(world, context.path, CentroidOf(scene.from), CentroidOf(scene.to));
   scene.obstacles = ObstacleDistances(world, p.k_a, context.pool->threads());
   scene.options = OptionsOf(p, world, context.path);

@@ -3,6 +3,9 @@
 
 #include "simulate/flock/motion.h"
 
+#include <stdexcept>
+
+#include "simulate/core/check.h"
 #include "simulate/flock/boids_motion.h"
 #include "simulate/flock/bswarm_motion.h"
 #include "simulate/flock/crowd_motion.h"
@@ -37,6 +40,11 @@ struct Make {
 };
 
 }  // namespace
+
+void RefuseModel(const MotionContext& context, const std::string& fault, const std::string& mend) {
+  if (context.where.empty()) throw std::invalid_argument(fault + "; " + mend);
+  throw InputError(context.where, 0, fault, mend);
+}
 
 template <typename T>
 std::unique_ptr<Motion<T>> MakeMotion(const ModelParameters& parameters,

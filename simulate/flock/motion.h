@@ -64,7 +64,13 @@ struct MotionContext {
   const std::vector<ModelSpec>* forces = nullptr;  // [[species.force]], checked
   std::string kernel;          // instruction set by name; empty: the fastest there is
   ThreadPool* pool = nullptr;  // for the preparation
+  std::string where;           // "FILE:LINE" of the model in the scene's file; empty: none
 };
+
+// The species cannot move by its model: throws InputError with the place in the scene's file, or
+// std::invalid_argument where there is none.
+[[noreturn]] void RefuseModel(const MotionContext& context, const std::string& fault,
+                              const std::string& mend);
 
 // Throws std::invalid_argument for numbers that make no sense together, InputError for what the
 // scene's file got wrong. `herd` is the species at the start.

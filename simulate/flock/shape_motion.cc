@@ -9,7 +9,6 @@
 #include <vector>
 #include <xsimd/xsimd.hpp>
 
-#include "simulate/core/check.h"
 #include "simulate/fields/curl_noise.h"
 #include "simulate/flock/force_passes.h"
 #include "simulate/flock/integrator.h"
@@ -32,8 +31,8 @@ const ShapeInTime& FindShape(const MotionContext& context) {
   for (const ShapeInTime& shape : context.world->shapes) {
     if (shape.name == context.shape) return shape;
   }
-  throw std::invalid_argument("species " + context.species +
-                              " has the model shape, which needs a [[shape]]: shape = \"NAME\"");
+  RefuseModel(context, "the model shape of the species " + context.species + " has no shape",
+              "name a [[shape]]: shape = \"NAME\"");
 }
 
 const PathSpec* FindPath(const MotionContext& context, const ShapeInTime& shape) {

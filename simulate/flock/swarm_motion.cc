@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "simulate/core/check.h"
 #include "simulate/fields/density.h"
 #include "simulate/fields/wall_potential.h"
 #include "simulate/flock/force_passes.h"
@@ -63,7 +62,10 @@ class SwarmMotion final : public Motion<T> {
         species_(context.species),
         kernel_(ChooseSwarmKernel(context.kernel)),
         distance_(herd.size() + Bodies<T>::kPadding) {
-    Check(world_->dimensions == 3, "the model swarm needs three dimensions");
+    if (world_->dimensions != 3) {
+      RefuseModel(context, "the model swarm needs three dimensions",
+                  "set dimensions = 3, or take another model");
+    }
     for (GoalSpec goal : OwnGoals(world_->goals)) {
       goal.position = GoalPosition(goal, world_->time);
       goals_.push_back(goal);

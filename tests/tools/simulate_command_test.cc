@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "simulate/camera/camera_io.h"
 #include "simulate/camera/projection.h"
@@ -125,6 +126,46 @@ TEST_F(SimulateCommandTest, WrongParameterNamesItsLineAndLeavesNothing) {
     EXPECT_NE(std::string(error.what()).find("`alpha_s`"), std::string::npos) << error.what();
   }
   EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(SimulateCommandTest, WhatAModelLacksIsToldWithItsLineAndItsMend) {
+  struct Case {
+    std::string species, fault, mend;
+  };
+  const std::vector<Case> cases{
+      {"model = \"shape\"", "the model shape of the species a has no shape", "shape = \"NAME\""},
+      {"model = \"morph\"", "the model morph of the species a has no start", "start = \"NAME\""},
+      {"model = \"crowd\"", "the model crowd has no goal for the species a", "[[goal]]"},
+  };
+  for (const Case& c : cases) {
+    std::ofstream(folder_ / "scene.toml")
+        << "[scene]\nduration = 0.4\nfps = 25\n[[species]]\nname = \"a\"\ncount = 6\n"
+        << c.species << "\n";
+    try {
+      Run(folder_ / "scene.toml", "--no-video", "out");
+      ADD_FAILURE() << "nothing was thrown: " << c.species;
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      EXPECT_NE(text.find("scene.toml:7: " + c.fault + "; "), std::string::npos) << text;
+      EXPECT_NE(text.find(c.mend), std::string::npos) << text;
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+  }
+}
+
+TEST_F(SimulateCommandTest, SwarmInThePlaneIsRefusedWithItsLine) {
+  std::ofstream(folder_ / "scene.toml")
+      << "[scene]\nduration = 0.4\nfps = 25\ndimensions = 2\n[[species]]\ncount = 6\n"
+      << "model = \"swarm\"\n";
+  try {
+    Run(folder_ / "scene.toml", "--no-video", "out");
+    FAIL() << "nothing was thrown";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("scene.toml:7: the model swarm needs three dimensions; "),
+              std::string::npos)
+        << text;
+  }
 }
 
 TEST_F(SimulateCommandTest, ListNamesModelsAndParameters) {

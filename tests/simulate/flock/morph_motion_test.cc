@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "simulate/core/check.h"
 #include "simulate/flock/engine.h"
 #include "simulate/shapes/animated_mesh_frames.h"
 #include "simulate/shapes/solid_meshes.h"
@@ -117,6 +118,31 @@ TEST(MorphMotion, NeedsTwoShapes) {
   Swarm swarm = MakeSwarm();
   swarm.start_shape = "";
   EXPECT_THROW(Engine(MakeWorld(), {swarm}, {}), std::invalid_argument);
+}
+
+void ExpectBlamed(const Swarm& swarm, const std::string& fault) {
+  try {
+    const Engine engine(MakeWorld(), {swarm}, {});
+    ADD_FAILURE() << "nothing was thrown: " << fault;
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("scene.toml:7: " + fault), 0U) << error.what();
+  }
+}
+
+TEST(MorphMotion, FaultsOfASceneAreToldWithTheirPlace) {
+  Swarm swarm = MakeSwarm();
+  swarm.spec.where = "scene.toml:7";
+  Swarm nowhere = swarm, formless = swarm, pushed = swarm, few = swarm;
+  nowhere.start_shape = "";
+  formless.shape = "none of them";
+  pushed.forces.push_back({.name = "wind_drag", .parameters = {}, .where = {}, .where_of = {}});
+  ExpectBlamed(nowhere, "the model morph of the species tetrahedron has no start; ");
+  ExpectBlamed(formless, "the model morph of the species tetrahedron has no shape; ");
+  ExpectBlamed(pushed, "the model morph sets velocities and takes no [[species.force]]; ");
+  // What only its library finds amiss: too few to fill a box.
+  few.position.resize(1);
+  few.velocity.resize(1);
+  ExpectBlamed(few, "");
 }
 
 }  // namespace
