@@ -7,6 +7,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -30,8 +31,10 @@ using internal::TrackCheckpoint;
 
 constexpr std::size_t kLearnImages = 24;  // at the start, for the detector
 constexpr std::size_t kLearnStride = 2;   // of these, every second one
-constexpr std::size_t kQueued = 6;        // frames between two threads
-constexpr int kSaveStride = 50;           // frames, of which one can be gone on from
+constexpr std::size_t kBatch = 8;         // frames that are looked at together
+constexpr std::size_t kQueued = 8;        // frames between two threads
+constexpr int kSaveStride = 50;           // frames at least from one that can be gone on from to
+                                          // the next
 
 // Pictures whose memory is used again.
 class SparePictures {
@@ -70,23 +73,22 @@ class Finder {
     for (std::size_t k = 0; k < images.size(); k += kLearnStride) some.push_back(images[k]);
     Timed(&timings_->detect_s, [&] { detector.Learn(some); });
   }
-  Found Find(const GrayImage& image) {
-    Found found;
-    ++frame_;
-    found.blobs = Timed(&timings_->detect_s, [&] { return detector.Detect(frame_, image); });
-    found.blobs.world_from_image =
-        Timed(&timings_->camera_s, [&] { return camera_.Next(image, found.blobs); });
-    if (is_saved_ && frame_ % kSaveStride == 0) {
-      StateWriter state;
-      state.Put(frame_);
-      detector.Save(&state);
-      camera_.Save(&state);
-      found.state = state.bytes();
+  std::vector<Found> Find(std::span<const GrayImage> images) {
+    std::vector<BlobFrame> blobs =
+        Timed(&timings_->detect_s, [&] { return detector.DetectAll(frame_ + 1, images, &pool_); });
+    std::vector<Found> all;
+    for (std::size_t k = 0; k < images.size(); ++k) {
+      ++frame_;
+      blobs[k].world_from_image =
+          Timed(&timings_->camera_s, [&] { return camera_.Next(images[k], blobs[k]); });
+      all.push_back({std::move(blobs[k]), {}});
     }
-    return found;
+    if (is_saved_ && frame_ - saved_frame_ >= kSaveStride) all.back().state = Save();
+    return all;
   }
   void Load(StateReader* state) {
     state->Take(&frame_);
+    saved_frame_ = frame_;
     detector.Load(state);
     camera_.Load(state);
   }
@@ -94,10 +96,20 @@ class Finder {
   Detector detector;
 
  private:
+  std::string Save() {
+    saved_frame_ = frame_;
+    StateWriter state;
+    state.Put(frame_);
+    detector.Save(&state);
+    camera_.Save(&state);
+    return state.bytes();
+  }
+
   bool is_saved_;
   TrackerTimings* timings_;
   CameraMotion camera_;
-  int frame_ = 0;
+  ThreadPool pool_{0};
+  int frame_ = 0, saved_frame_ = 0;
 };
 
 // The next frames, until there are none or nobody wants them.
@@ -121,16 +133,19 @@ void FindAll(bool has_learned, BoundedQueue<GrayImage>* images, SparePictures* s
     }
     finder->Learn(first);
   }
-  const auto find = [&](GrayImage image) {
-    const bool wanted = found->Push(finder->Find(image));
-    spare->Give(std::move(image));
-    return wanted;
-  };
-  for (GrayImage& image : first) {
-    if (!find(std::move(image))) return;
-  }
-  while (std::optional<GrayImage> image = images->Pop()) {
-    if (!find(std::move(*image))) return;
+  std::vector<GrayImage> batch = std::move(first);
+  while (true) {
+    while (batch.size() < kBatch) {
+      std::optional<GrayImage> image = images->Pop();
+      if (!image) break;
+      batch.push_back(std::move(*image));
+    }
+    if (batch.empty()) return;
+    for (Found& one : finder->Find(batch)) {
+      if (!found->Push(std::move(one))) return;
+    }
+    for (GrayImage& image : batch) spare->Give(std::move(image));
+    batch.clear();
   }
 }
 

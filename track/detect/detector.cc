@@ -28,8 +28,9 @@ constexpr double kLowOverHigh = 0.5;        // hysteresis
 constexpr double kWindowOverLength = 3;     // of the local mean, to the usual length
 constexpr double kLongestOverWindow = 1.2;  // a longer blob is no animal
 constexpr double kFirstWindowOverHeight = 1.0 / 8;
-constexpr std::size_t kRemembered = 600;  // blobs
-constexpr int kSummaryInterval = 8;       // frames
+constexpr std::size_t kRemembered = 600;    // blobs
+constexpr int kSummaryInterval = 8;         // frames
+constexpr std::size_t kPolarityStride = 3;  // of the frames to learn from
 
 cv::Mat View(const GrayImage& image) {
   return cv::Mat(image.height, image.width, CV_8UC1,
@@ -102,7 +103,7 @@ double MassQuantile(std::vector<std::pair<double, double>>* scratch, double shar
 
 }  // namespace
 
-Detector::Detector(const DetectorOptions& options) : options_(options) {
+Detector::Detector(const DetectorOptions& options) : options_(options), scratch_(1) {
   CheckOptions(options);
   const std::string& p = options.polarity;
   Check(p == "auto" || p == "dark" || p == "bright" || p == "both",
@@ -122,10 +123,10 @@ double Detector::Window(int image_height) const {
 void Detector::Learn(std::span<const GrayImage> images) {
   if (options_.polarity == "auto") {
     double dark_energy = 0, bright_energy = 0;
-    for (const GrayImage& image : images) {
+    for (std::size_t k = 0; k < images.size(); k += kPolarityStride) {
       for (const bool dark : {true, false}) {
         BlobFrame found;
-        FindBlobs(image, dark, &found);
+        FindBlobs(images[k], dark, &scratch_.front(), &found);
         for (const Blob& blob : found.blobs)
           (dark ? dark_energy : bright_energy) += blob.peak * blob.peak;
       }
@@ -137,13 +138,38 @@ void Detector::Learn(std::span<const GrayImage> images) {
 }
 
 BlobFrame Detector::Detect(int frame, const GrayImage& image) {
+  BlobFrame found = Find(frame, image, &scratch_.front());
+  Remember(found);
+  return found;
+}
+
+std::vector<BlobFrame> Detector::DetectAll(int first_frame, std::span<const GrayImage> images,
+                                           ThreadPool* pool) {
+  std::vector<BlobFrame> all(images.size());
+  for (std::size_t done = 0; done < images.size();) {
+    const std::size_t count =
+        std::min(images.size() - done, static_cast<std::size_t>(FramesToSummary()));
+    while (scratch_.size() < count) scratch_.emplace_back();
+    pool->For(0, static_cast<std::int64_t>(count), 1, [&](std::int64_t k, std::int64_t) {
+      const std::size_t at = done + static_cast<std::size_t>(k);
+      all[at] = Find(first_frame + static_cast<int>(at), images[at], &scratch_[k]);
+    });
+    for (const std::size_t end = done + count; done < end; ++done) Remember(all[done]);
+  }
+  return all;
+}
+
+// How many frames from here on are looked at with what is known now.
+int Detector::FramesToSummary() const {
+  return usual_length_ > 0 ? kSummaryInterval - frames_since_summary_ : 1;
+}
+
+BlobFrame Detector::Find(int frame, const GrayImage& image, Scratch* scratch) const {
   BlobFrame found;
   found.frame = frame;
   found.pixels.reserve(usual_pixels_);
-  if (dark_) FindBlobs(image, true, &found);
-  if (bright_) FindBlobs(image, false, &found);
-  Remember(found);
-  usual_pixels_ = found.pixels.size() + found.pixels.size() / 4;
+  if (dark_) FindBlobs(image, true, scratch, &found);
+  if (bright_) FindBlobs(image, false, scratch, &found);
   return found;
 }
 
@@ -161,13 +187,15 @@ bool Detector::StandsOut(const Component& c, const ContrastView& view,
   return false;
 }
 
-void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
-  Fit(image.width, image.height, &smooth_);
-  cv::Mat smooth_view = View(smooth_);
+void Detector::FindBlobs(const GrayImage& image, bool dark, Scratch* scratch,
+                         BlobFrame* found) const {
+  GrayImage& smooth = scratch->smooth;
+  Fit(image.width, image.height, &smooth);
+  cv::Mat smooth_view = View(smooth);
   cv::GaussianBlur(View(image), smooth_view, cv::Size(3, 3), 0);
   const double window = Window(image.height);
   const LocalBackground background = EstimateBackground(
-      smooth_, window, kLeastNoise, std::max(kLeastOutlier, kOutlierContrast * usual_contrast_));
+      smooth, window, kLeastNoise, std::max(kLeastOutlier, kOutlierContrast * usual_contrast_));
 
   const double least_contrast = options_.relative_contrast * usual_contrast_;
   std::vector<float> low(background.noise.size());
@@ -175,11 +203,11 @@ void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
     low[k] = static_cast<float>(kLowOverHigh *
                                 std::max(options_.threshold * background.noise[k], least_contrast));
   }
-  MarkContrast(smooth_, background, dark, low, &limit_, &mask_);
+  MarkContrast(smooth, background, dark, low, &scratch->limit, &scratch->mask);
 
   const LevelTable level(background, image.width, image.height);
-  const ContrastView view{image, smooth_, level, dark ? 1.0 : -1.0};
-  const Components components = FindComponents(mask_);
+  const ContrastView view{image, smooth, level, dark ? 1.0 : -1.0};
+  const Components components = FindComponents(scratch->mask);
   for (const Component& c : components) {
     if (c.area < options_.min_area) {
       found->specks += StandsOut(c, view, background, least_contrast) ? 1 : 0;
@@ -188,12 +216,12 @@ void Detector::FindBlobs(const GrayImage& image, bool dark, BlobFrame* found) {
     if (c.right - c.left >= image.width / 2 && c.bottom - c.top >= image.height / 2) continue;
     const double noise = background.NoiseAt(0.5 * (c.left + c.right), 0.5 * (c.top + c.bottom));
     const std::size_t first = found->blobs.size();
-    cutter_.Append(c, view,
-                   {.noise = noise,
-                    .least_peak = std::max(options_.threshold * noise, least_contrast),
-                    .min_area = options_.min_area,
-                    .longest_side = kLongestOverWindow * window},
-                   found);
+    scratch->cutter.Append(c, view,
+                           {.noise = noise,
+                            .least_peak = std::max(options_.threshold * noise, least_contrast),
+                            .min_area = options_.min_area,
+                            .longest_side = kLongestOverWindow * window},
+                           found);
     if (!ignored_.empty()) DropIgnored(first, found);
   }
 }
@@ -218,6 +246,7 @@ void Detector::DropIgnored(std::size_t first, BlobFrame* found) const {
 }
 
 void Detector::Remember(const BlobFrame& found) {
+  usual_pixels_ = found.pixels.size() + found.pixels.size() / 4;
   for (const Blob& blob : found.blobs) {
     recent_.push_back({blob.mass, blob.peak, ShapeOf(blob.moments, 0).major});
     if (recent_.size() > kRemembered) recent_.pop_front();

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "simulate/core/options.h"
+#include "simulate/core/parallel_for.h"
 #include "simulate/core/state_archive.h"
 #include "track/detect/background.h"
 #include "track/detect/blob.h"
@@ -61,6 +62,11 @@ class Detector {
 
   BlobFrame Detect(int frame, const GrayImage& image);
 
+  // The same for consecutive frames, several at a time. What is learned on the way changes once in
+  // some frames, so that those in between do not wait for each other.
+  std::vector<BlobFrame> DetectAll(int first_frame, std::span<const GrayImage> images,
+                                   ThreadPool* pool);
+
   // What was learned so far, to go on from later.
   void Save(StateWriter* state) const;
   void Load(StateReader* state);
@@ -78,7 +84,15 @@ class Detector {
 
   bool StandsOut(const Component& component, const ContrastView& view,
                  const LocalBackground& background, double least_contrast) const;
-  void FindBlobs(const GrayImage& image, bool dark, BlobFrame* found);
+  // Memory of one thread, kept so that no frame allocates it anew.
+  struct Scratch {
+    PatchCutter cutter;
+    GrayImage smooth, limit, mask;
+  };
+
+  int FramesToSummary() const;
+  BlobFrame Find(int frame, const GrayImage& image, Scratch* scratch) const;
+  void FindBlobs(const GrayImage& image, bool dark, Scratch* scratch, BlobFrame* found) const;
   void DropIgnored(std::size_t first, BlobFrame* found) const;
   void Remember(const BlobFrame& found);
   double Window(int image_height) const;
@@ -90,8 +104,7 @@ class Detector {
   std::deque<Trace> recent_;
   int frames_since_summary_ = 0;
   std::size_t usual_pixels_ = 0;  // of a frame's blobs, to reserve memory
-  PatchCutter cutter_;
-  GrayImage smooth_, limit_, mask_;  // kept, so that no frame allocates them anew
+  std::deque<Scratch> scratch_;   // one for each frame that is looked at at a time
 };
 
 }  // namespace flocklift

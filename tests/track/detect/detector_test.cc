@@ -140,5 +140,46 @@ TEST(DetectorTest, WrongOptionsAreRefused) {
   EXPECT_THROW(Detector({.threshold = -1}), std::invalid_argument);
 }
 
+TEST(DetectorTest, SeveralFramesAtATimeAreTheSame) {
+  std::vector<GrayImage> pictures;
+  for (std::uint64_t frame = 0; frame < 21; ++frame) {
+    std::vector<SoftBlob> blobs;
+    Rng rng(9, frame);
+    for (int k = 0; k < 12; ++k) {  // nearer and nearer, so that what is usual changes
+      blobs.push_back({.center = {rng.Uniform(20, 220), rng.Uniform(20, 140)},
+                       .contrast = -60 - 2.0 * static_cast<double>(frame),
+                       .major_sd = 2 + 0.1 * static_cast<double>(frame)});
+    }
+    pictures.push_back(DrawPicture(240, 160, {.level = 170, .noise = 2}, blobs, frame));
+  }
+  Detector one({});
+  std::vector<BlobFrame> wanted;
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    wanted.push_back(one.Detect(static_cast<int>(k) + 1, pictures[k]));
+  }
+  for (const int threads : {1, 2, 3}) {
+    ThreadPool pool(threads);
+    Detector many({});
+    std::vector<BlobFrame> found;
+    for (std::size_t first = 0; first < pictures.size(); first += 7) {
+      for (BlobFrame& frame : many.DetectAll(static_cast<int>(first) + 1,
+                                             std::span(pictures).subspan(first, 7), &pool)) {
+        found.push_back(std::move(frame));
+      }
+    }
+    ASSERT_EQ(found.size(), wanted.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_EQ(found[k].frame, wanted[k].frame);
+      ASSERT_EQ(found[k].blobs.size(), wanted[k].blobs.size());
+      for (std::size_t b = 0; b < found[k].blobs.size(); ++b) {
+        EXPECT_EQ(found[k].blobs[b].center, wanted[k].blobs[b].center);
+        EXPECT_EQ(found[k].blobs[b].mass, wanted[k].blobs[b].mass);
+      }
+    }
+    EXPECT_EQ(many.usual_length(), one.usual_length());
+    EXPECT_EQ(many.usual_contrast(), one.usual_contrast());
+  }
+}
+
 }  // namespace
 }  // namespace flocklift
