@@ -110,6 +110,7 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
                                  {"own_speed_sd", result.own_speed_sd},
                                  {"condition", NumberOrNull(result.condition)}};
   if (result.diffusion_sd) json["diffusion_sd"] = *result.diffusion_sd;
+  for (const auto& [name, misfit] : result.misfit) json["misfit"][name] = misfit;
   if (result.velocity_noise) json["velocity_noise"] = *result.velocity_noise;
   if (result.position_noise) json["position_noise"] = *result.position_noise;
   if (result.r2_held_out) json["r2_held_out"] = *result.r2_held_out;
@@ -144,8 +145,9 @@ void PrintTable(const FitResult& result) {
 
 void RunFit(const FitCommand& command, const CommonOptions& common) {
   Stage stage("fit", common);
-  stage.options() = {{"model", command.model}, {"free", command.free}, {"set", command.set},
-                     {"walls", command.walls}, {"goal", command.goal}, {"method", command.method}};
+  stage.options() = {{"model", command.model},  {"free", command.free}, {"set", command.set},
+                     {"walls", command.walls},  {"goal", command.goal}, {"method", command.method},
+                     {"search", command.search}};
   FitOptions options = command.fit;
   if (options.scale_sd == 0) {  // the reconstruction may have said
     options.scale_sd = ScaleSdOfSummary(command.trajectories.parent_path()).value_or(0);
@@ -159,6 +161,7 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
   problem.free = command.free;
   problem.walls = ParseWalls(command.walls);
   problem.method = FitMethodOf(command.method);
+  problem.search = SimulatedSearchOf(command.search);
   ParseGoal(command.goal, &problem);
   if (!command.start.empty()) stage.AddInput(command.start);
   problem.model = ModelOf(command);
@@ -205,7 +208,8 @@ void AddFitCommand(CLI::App& app) {
       "--set taper=1,cruise=0,noise_time=0\n"
       "  flocklift fit trajectories.csv --compare boids,linear\n"
       "  flocklift fit truth/trajectories.csv --walls=-20,-20,2,20,20,22\n"
-      "  flocklift fit trajectories.csv --model swarm --set evolution=3 --goal 0,0,5,4",
+      "  flocklift fit trajectories.csv --model swarm --set evolution=3 --goal 0,0,5,4\n"
+      "  flocklift fit trajectories.csv --model bswarm --start parameters.toml --walls=0,0,0,1,1,1",
       {.fps = true, .seed = true}, &RunFit, &command);
   sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
   sub->add_option("--model", command->model, "the model; `flocklift simulate --list` names them")
@@ -230,9 +234,14 @@ void AddFitCommand(CLI::App& app) {
          "state-space (all at once, by likelihood; smooth models), errors-in-variables "
          "(regression with instruments), differences (least squares on plain differences: "
          "badly biased, for comparison), noise-field (scale and gain of a swarm's curl noise, "
-         "its seed unknown), or auto, which never takes differences")
-      ->check(CLI::IsMember(
-          {"auto", "state-space", "errors-in-variables", "differences", "noise-field"}))
+         "its seed unknown), statistics (simulations that move as the data do; models "
+         "without usable derivatives, as bswarm), or auto, which never takes differences")
+      ->check(CLI::IsMember({"auto", "state-space", "errors-in-variables", "differences",
+                             "noise-field", "statistics"}))
+      ->capture_default_str();
+  sub->add_option("--search", command->search,
+                  "of simulated statistics: crs or isres, then bobyqa, or bobyqa alone")
+      ->check(CLI::IsMember({"bobyqa", "crs", "isres"}))
       ->capture_default_str();
   sub->add_option("--compare", command->compare,
                   "models, separated by commas, to be fitted to all but the last part of the time "

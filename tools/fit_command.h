@@ -27,6 +27,7 @@ struct FitCommand {
   std::string walls = {};                 // "X0,Y0,Z0,X1,Y1,Z1" [m]; empty: none
   std::string goal = "auto";              // auto, none, seek, "X,Y,Z" or "X,Y,Z,REACH"
   std::string method = "auto";            // of reconstruct/fit/fit.h
+  std::string search = "crs";             // of simulated statistics
   std::vector<std::string> compare = {};  // models
   FitOptions fit = {};
 };

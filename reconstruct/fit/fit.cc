@@ -15,6 +15,7 @@
 #include "reconstruct/fit/fitter.h"
 #include "reconstruct/fit/process_model.h"
 #include "reconstruct/fit/state_space.h"
+#include "reconstruct/fit/statistics_fit.h"
 #include "reconstruct/fit/swarm_noise.h"
 #include "simulate/core/check.h"
 #include "simulate/flock/model.h"
@@ -196,6 +197,10 @@ FitResult FitModel(const FitOptions& options, const FitProblem& problem,
   Check(fps > 0, "fps must be positive");
   if (problem.model.name == "swarm") {
     return internal::FitSwarmNoise(options, problem, trajectories, fps, threads);
+  }
+  if (problem.method == FitMethod::kStatistics ||
+      (problem.method == FitMethod::kAuto && problem.model.name == "bswarm")) {
+    return internal::FitStatistics(options, problem, trajectories, fps, seed, threads, progress);
   }
   if (problem.method == FitMethod::kNoiseField) {
     throw InputError(problem.model.where, 0, "model " + problem.model.name + " drifts in no noise",

@@ -18,6 +18,9 @@
 // and one for what has no accelerations, the drift of the model swarm:
 //   noise-field          scale and gain of its curl noise, the seed unknown, of greatest marginal
 //                        likelihood (noise_field.h)
+// and for models without usable derivatives, such as bswarm:
+//   statistics           simulations whose speeds, accelerations, turning rates, distances and
+//                        polarisation are as the data's (simulated_fit.h)
 // A goal may move: only what it does to animals apart from each other is used, and its mean place
 // is estimated. A state-space estimate frees radii and tapers too; elsewhere they are given. World
 // frame, z up; metres, seconds.
@@ -28,8 +31,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "reconstruct/fit/simulated_fit.h"
 #include "simulate/camera/camera.h"
 #include "simulate/core/parameters.h"
 #include "simulate/core/progress.h"
@@ -48,6 +53,10 @@ struct FitOptions {
   double depth_error_time = 2;  // for how long a depth error lasts [s]
   double scale_sd = 0;          // relative sd of the common scale in sd_depth
   int noise_animals = 400;      // of curl noise: animals of a field that it is sought from
+  double statistics_time = 4;   // of simulated statistics: length of a simulation [s]; 0: all
+  int global_evaluations = 150;  // of simulated statistics, at most
+  int local_evaluations = 100;
+  double search_range = 5;  // parameters are sought within this factor of their start
 };
 
 template <typename Visitor>
@@ -71,6 +80,14 @@ void Describe(Visitor& visit, FitOptions& o) {
         "relative sd of the common scale, which sd_depth includes");
   visit("noise-animals", o.noise_animals, {.low = 50, .high = 2000}, "",
         "of curl noise: animals that it is sought from, in each time of a noise that evolves");
+  visit("statistics-time", o.statistics_time, {.low = 0}, "s",
+        "of simulated statistics: length of a simulation; 0: as long as the data");
+  visit("global-evaluations", o.global_evaluations, {.low = 1, .high = 1000000}, "",
+        "of simulated statistics: parameters tried far and wide");
+  visit("local-evaluations", o.local_evaluations, {.low = 1, .high = 1000000}, "",
+        "likewise: parameters tried near the best of those");
+  visit("search-range", o.search_range, {.low = 1.01, .high = 1e3}, "",
+        "likewise: parameters are sought within this factor of where they start");
 }
 
 // A point that attracts all animals, besides the model's own terms (a scene's [[goal]]).
@@ -87,16 +104,19 @@ enum class FitMethod {
   kErrorsInVariables,
   kDifferences,
   kNoiseField,  // of the model swarm, and of no other
+  kStatistics,  // of any model but swarm; the default for bswarm
 };
 std::string NameOf(FitMethod method);  // as in the list above
 // Throws std::invalid_argument for another name.
 FitMethod FitMethodOf(const std::string& name);
+SimulatedSearch SimulatedSearchOf(const std::string& name);  // likewise: bobyqa, crs, isres
 
 // What to fit: the model with values for all that is not free (defaults where it says nothing).
 struct FitProblem {
   ModelSpec model;
   std::vector<std::string> free;  // empty: every weight that the data can speak of
   FitMethod method = FitMethod::kAuto;
+  SimulatedSearch search = SimulatedSearch::kCrs;  // of simulated statistics
   std::optional<Region> walls;  // the box of the boundary term; without it the term is left out
   GoalChoice goal = GoalChoice::kWhenHeld;
   Vec3d goal_position;           // when given [m]
@@ -152,7 +172,9 @@ struct FitResult {
   double noise_time = 0;               // its correlation time [s]; 0: fresh at every step
   double diffusion = 0;                // of the velocity, when noise_time is 0 [m^2/s^3]
   std::optional<double> diffusion_sd;  // of a state-space estimate
-  std::optional<double> position_noise;         // sd of each coordinate, likewise [m]
+  std::optional<double> position_noise;  // sd of each coordinate, likewise [m]
+  // Of simulated statistics: by name, distance from the data's in sd from seed to seed.
+  std::vector<std::pair<std::string, double>> misfit;
   std::optional<double> velocity_noise;         // of what drifts: sd not explained [m/s]
   double own_speed_mean = 0, own_speed_sd = 0;  // the animals' cruising speeds, if any [m/s]
   double condition = 0;                         // of the moment matrix, terms scaled to unit rms

@@ -35,6 +35,8 @@ std::string NameOf(FitMethod method) {
       return "differences";
     case FitMethod::kNoiseField:
       return "noise-field";
+    case FitMethod::kStatistics:
+      return "statistics";
   }
   return "";
 }
@@ -42,13 +44,20 @@ std::string NameOf(FitMethod method) {
 FitMethod FitMethodOf(const std::string& name) {
   for (const FitMethod method :
        {FitMethod::kAuto, FitMethod::kStateSpace, FitMethod::kErrorsInVariables,
-        FitMethod::kDifferences, FitMethod::kNoiseField}) {
+        FitMethod::kDifferences, FitMethod::kNoiseField, FitMethod::kStatistics}) {
     if (NameOf(method) == name) return method;
   }
-  Check(false,
-        "--method " + name +
-            " is none of auto, state-space, errors-in-variables, differences and noise-field");
+  Check(false, "--method " + name +
+                   " is none of auto, state-space, errors-in-variables, differences, noise-field "
+                   "and statistics");
   return FitMethod::kAuto;
+}
+
+SimulatedSearch SimulatedSearchOf(const std::string& name) {
+  if (name == "bobyqa") return SimulatedSearch::kBobyqa;
+  if (name == "crs") return SimulatedSearch::kCrs;
+  Check(name == "isres", "--search " + name + " is none of bobyqa, crs and isres");
+  return SimulatedSearch::kIsres;
 }
 
 }  // namespace flocklift

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Parameters of a model that has no usable derivatives, by the method of simulated moments
+// (McFadden 1989): the statistics S (motion_statistics.h) of R simulations are brought near those
+// of the data,
+//   J(theta) = sum_q ((mean_r S_q(theta, seed_r) - S_q data) / sd_q)^2
+// with sd_q from seed to seed at the start, and the same seeds at every theta, so that J is a
+// function. Searched in log theta, between theta / range and theta range, by NLopt: a global search
+// (controlled random search, or ISRES) and BOBYQA from where it ends, or BOBYQA alone. With
+// G = dS / d log theta, W = diag(1 / sd^2) and C the covariance of S between seeds, at the
+// estimate,
+//   cov log theta = (1 + 1/R) M C M',   M = (G' W G)^-1 G' W
+// so that what the statistics do not feel, beside their spread from seed to seed, has a large sd.
+// That is the bend of J at one point, and J may be as low far away: the sd is no less than 1 / 1.96
+// of the way to the farthest theta tried whose J is no greater than another seed of the estimate
+// would have as data, and infinite where the search ended at its bounds.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_FIT_SIMULATED_FIT_H_
+#define FLOCKLIFT_RECONSTRUCT_FIT_SIMULATED_FIT_H_
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "reconstruct/fit/motion_statistics.h"
+#include "simulate/core/progress.h"
+
+namespace flocklift {
+
+enum class SimulatedSearch { kBobyqa, kCrs, kIsres };  // the latter two, then BOBYQA
+
+struct SimulatedFitOptions {
+  SimulatedSearch search = SimulatedSearch::kCrs;
+  int simulations = 3;                                    // R
+  int global_evaluations = 150, local_evaluations = 100;  // at most
+  double range = 5;                                       // above 1
+  int spread_seeds = 12;                                  // that sd_q and C are taken from
+  double difference = 0.1;                                // of log theta, for G
+  std::uint64_t seed = 1;
+  int threads = 1;
+};
+
+// The statistics of one simulation; nothing where it has none. Called from several threads.
+using SimulatedStatistics = std::function<std::optional<MotionStatistics>(
+    const std::vector<double>& theta, std::uint64_t seed)>;
+
+struct SimulatedFit {
+  bool usable = false;              // could the start be simulated?
+  std::vector<double> estimate;     // p
+  std::vector<double> log_sd;       // p, of the logarithms; infinite where nothing is known
+  std::vector<double> correlation;  // p x p, row-major
+  // By statistic: rms over its quantiles of (S - S data) in sd from seed to seed at the estimate.
+  // About 1 for another simulation of the truth.
+  std::array<double, kMotionStatistics.size()> misfit{};
+  double start_cost = 0, cost = 0;  // J
+  int evaluations = 0;
+};
+
+// `start` has p positive values. Deterministic in options and start, at any number of threads.
+SimulatedFit FitSimulated(const SimulatedFitOptions& options, const SimulatedStatistics& simulate,
+                          const MotionStatistics& data, const std::vector<double>& start,
+                          const Progress& progress = {});
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_FIT_SIMULATED_FIT_H_

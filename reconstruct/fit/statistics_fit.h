@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A model fitted by simulated statistics (simulated_fit.h): simulations start from the flock as it
+// is in its fullest frame and go on for as long as the data do, or `statistics_time`; each animal's
+// own speed is its mean speed times a common factor, fitted too where the model has a `drive`
+// (walls and noise keep a flock from flying at its own speed). Nothing of an animal's path enters
+// but its start, so that any model that the engine flies can be fitted, however hard its cut-offs.
+// Position noise counts as motion: accelerations must come from smooth paths.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_FIT_STATISTICS_FIT_H_
+#define FLOCKLIFT_RECONSTRUCT_FIT_STATISTICS_FIT_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reconstruct/fit/fit.h"
+
+namespace flocklift::internal {
+
+// What is freed when nothing is named: of bswarm the zones' weights and radii, of others nothing.
+std::vector<std::string> StatisticsParameters(const ModelSpec& model);
+
+FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
+                        const Trajectories& trajectories, double fps, std::uint64_t seed,
+                        int threads, const Progress& progress);
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_RECONSTRUCT_FIT_STATISTICS_FIT_H_
