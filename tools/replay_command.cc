@@ -19,7 +19,9 @@
 #include "simulate/core/io.h"
 #include "simulate/core/parameters.h"
 #include "simulate/core/rng.h"
+#include "simulate/flock/load_scene.h"
 #include "simulate/render/film.h"
+#include "tools/scene_scenery.h"
 #include "tools/stage.h"
 #include "tools/walls.h"
 
@@ -118,6 +120,11 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
   stage.AddInput(command.parameters);
   const std::optional<Region> walls = ParseWalls(command.walls);
   if (walls) stage.options()["walls"] = command.walls;
+  const std::vector<ObstacleSpec> obstacles = ParseObstacles(command.obstacles);
+  if (!obstacles.empty()) stage.options()["obstacles"] = command.obstacles;
+  for (const ObstacleSpec& obstacle : obstacles) {
+    if (obstacle.mesh) stage.AddInput(*obstacle.mesh);
+  }
   std::optional<Camera> camera;
   if (!command.camera.empty()) {
     stage.AddInput(command.camera);
@@ -141,12 +148,18 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
 
   const Progress progress = stage.BeginPhase("fly");
   const ReplayResult result = Replay(command.replay, parameters, reconstruction, *fps, common.seed,
-                                     common.ThreadCount(), progress);
+                                     common.ThreadCount(), progress, obstacles);
   if (camera && !command.no_video) {
     const Progress film = stage.BeginPhase("film");
-    FilmTrajectories(common.out / "video.mp4", FromFrameOne(result.replayed, result.start_frame),
-                     AnimalsOf(result.replayed, command.wingspan, common.seed), *camera, {},
-                     {.fps = *fps, .seed = common.seed, .threads = common.ThreadCount()}, film);
+    Scene surroundings;
+    surroundings.obstacles = obstacles;
+    const std::vector<Obstacle> solid = LoadObstacles(surroundings);
+    const Scenery scenery = SceneObstacles(solid);
+    FilmTrajectories(
+        common.out / "video.mp4", FromFrameOne(result.replayed, result.start_frame),
+        AnimalsOf(result.replayed, command.wingspan, common.seed), *camera, {},
+        {.fps = *fps, .seed = common.seed, .threads = common.ThreadCount(), .scenery = &scenery},
+        film);
   }
   stage.BeginPhase("write", "files");
   WriteTrajectories(common.out / "trajectories.csv", result.replayed);
@@ -167,7 +180,8 @@ void AddReplayCommand(CLI::App& app) {
       "Examples:\n"
       "  flocklift replay trajectories.csv --parameters parameters.toml --out replay\n"
       "  flocklift replay trajectories.csv --parameters parameters.toml --count 5000 \\\n"
-      "      --camera camera.yaml --out replay",
+      "      --camera camera.yaml --out replay\n"
+      "  flocklift replay flies.csv --parameters parameters.toml --obstacle 0.1,0,1,0.05",
       {.fps = true, .seed = true}, &RunReplay, &command);
   sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
   sub->add_option("--parameters", command->parameters, "parameters.toml of `flocklift fit`")
@@ -175,6 +189,7 @@ void AddReplayCommand(CLI::App& app) {
   sub->add_option("--camera", command->camera, "camera file; also film the replay");
   sub->add_flag("--no-video", command->no_video, "write no video");
   AddWallsFlag(*sub, &command->walls);
+  AddObstacleFlag(*sub, &command->obstacles);
   sub->add_option("--wingspan", command->wingspan, "of the animals in the film [m]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

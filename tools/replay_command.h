@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "reconstruct/replay/replay.h"
 #include "tools/command.h"
@@ -21,6 +22,7 @@ struct ReplayCommand {
   bool no_video = false;
   double wingspan = 0.7;   // of the animals in the video [m]
   std::string walls = {};  // "X0,Y0,Z0,X1,Y1,Z1" [m]; empty: those of the parameters
+  std::vector<std::string> obstacles = {};  // as ParseObstacles of tools/walls.h reads them
   ReplayOptions replay = {};
 };
 

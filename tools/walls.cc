@@ -40,4 +40,33 @@ std::optional<Region> ParseWalls(const std::string& text) {
   return walls;
 }
 
+void AddObstacleFlag(CLI::App& command, std::vector<std::string>* texts) {
+  command
+      .add_option(
+          "--obstacle", *texts,
+          "X,Y,Z,RADIUS or X0,Y0,Z0,X1,Y1,Z1 [m], or a mesh file: something solid in the way "
+          "of models that avoid it (bswarm, shape, swarm); may be given again")
+      ->allow_extra_args(false);
+}
+
+std::vector<ObstacleSpec> ParseObstacles(const std::vector<std::string>& texts) {
+  std::vector<ObstacleSpec> obstacles;
+  for (const std::string& text : texts) {
+    ObstacleSpec obstacle;
+    if (const auto ball = ParseNumbers(text, 4)) {
+      Check((*ball)[3] > 0, "--obstacle " + text + ": the radius must be positive");
+      obstacle.placement.position = {(*ball)[0], (*ball)[1], (*ball)[2]};
+      obstacle.radius = (*ball)[3];
+    } else if (const auto n = ParseNumbers(text, 6)) {
+      obstacle.box = Region{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
+      Check((*n)[0] < (*n)[3] && (*n)[1] < (*n)[4] && (*n)[2] < (*n)[5],
+            "--obstacle " + text + ": the first corner must lie below the second on every axis");
+    } else {
+      obstacle.mesh = text;
+    }
+    obstacles.push_back(obstacle);
+  }
+  return obstacles;
+}
+
 }  // namespace flocklift

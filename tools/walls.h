@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Flags of fit and replay that are places: --walls X0,Y0,Z0,X1,Y1,Z1, the box of a model's boundary
-// term [m].
+// term [m]; --obstacle, something solid besides.
 
 #ifndef FLOCKLIFT_TOOLS_WALLS_H_
 #define FLOCKLIFT_TOOLS_WALLS_H_
@@ -23,6 +23,12 @@ std::optional<std::vector<double>> ParseNumbers(const std::string& text, std::si
 
 // Nothing for an empty text. Throws std::invalid_argument when it is no box.
 std::optional<Region> ParseWalls(const std::string& text);
+
+void AddObstacleFlag(CLI::App& command, std::vector<std::string>* texts);
+
+// "X,Y,Z,RADIUS" is a ball, "X0,Y0,Z0,X1,Y1,Z1" a box [m], all else a mesh file. Throws
+// std::invalid_argument for a ball or box without inside.
+std::vector<ObstacleSpec> ParseObstacles(const std::vector<std::string>& texts);
 
 }  // namespace flocklift
 

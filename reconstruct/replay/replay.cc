@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
@@ -17,6 +18,7 @@
 #include "simulate/core/check.h"
 #include "simulate/core/rng.h"
 #include "simulate/flock/engine.h"
+#include "simulate/flock/load_scene.h"
 
 namespace flocklift {
 namespace {
@@ -217,14 +219,26 @@ double RmsDistance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(a.size(), 1)));
 }
 
+void CheckObstacles(const ReplayOptions& options, const ModelSpec& model,
+                    const std::vector<ObstacleSpec>& obstacles) {
+  if (obstacles.empty()) return;
+  constexpr const char* kAvoiding[] = {"bswarm", "shape", "swarm"};
+  if (std::find(std::begin(kAvoiding), std::end(kAvoiding), model.name) == std::end(kAvoiding)) {
+    throw InputError(model.where, 0, "model " + model.name + " sees no obstacles",
+                     "leave --obstacle out, or fit bswarm, shape or swarm");
+  }
+  Check(options.alpha == 1, "obstacles stand in free flights only: leave out --alpha");
+}
+
 }  // namespace
 
 ReplayResult Replay(const ReplayOptions& options, const Parameters& parameters,
                     const Trajectories& reconstruction, double fps, std::uint64_t seed, int threads,
-                    const Progress& progress) {
+                    const Progress& progress, const std::vector<ObstacleSpec>& obstacles) {
   CheckOptions(options);
   Check(fps > 0, "fps must be positive to replay");
   Check(reconstruction.has_velocity, "a replay starts from velocities: fill them first");
+  CheckObstacles(options, parameters.model, obstacles);
   ReplayResult result;
   result.start_frame = options.frame > 0 ? options.frame : FullestFrame(reconstruction);
   Start start = MakeStart(reconstruction, result.start_frame, options.count, seed);
@@ -238,6 +252,9 @@ ReplayResult Replay(const ReplayOptions& options, const Parameters& parameters,
               .goals = parameters.goals,
               .predators = {}};
   if (parameters.walls) world.box = *parameters.walls;
+  Scene scene;
+  scene.obstacles = obstacles;
+  world.obstacles = LoadObstacles(scene);
   std::unique_ptr<Flight> flight, perturbed, noiseless;
   if (options.alpha < 1) {
     flight = std::make_unique<PulledFlight>(options, parameters, reconstruction, start,

@@ -64,11 +64,13 @@ struct ReplayResult {
   std::vector<Divergence> divergence;  // by frame, the start left out
 };
 
-// Cruising speeds are each animal's mean speed in the reconstruction. Throws InputError for a model
-// or parameter that does not exist, std::invalid_argument for a frame without animals.
+// Cruising speeds are each animal's mean speed in the reconstruction. Obstacles stand besides what
+// the parameters say, in a free flight of a model that avoids them (bswarm, shape, swarm). Throws
+// InputError for a model or parameter that does not exist or does not see the obstacles,
+// std::invalid_argument for a frame without animals.
 ReplayResult Replay(const ReplayOptions& options, const Parameters& parameters,
                     const Trajectories& reconstruction, double fps, std::uint64_t seed, int threads,
-                    const Progress& progress = {});
+                    const Progress& progress = {}, const std::vector<ObstacleSpec>& obstacles = {});
 
 }  // namespace flocklift
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "simulate/core/check.h"
 #include "simulate/core/rng.h"
 #include "simulate/flock/simulate_scene.h"
 
@@ -235,6 +236,39 @@ TEST(Replay, WallsHoldTheFlock) {
   };
   EXPECT_GT(furthest({}), 30);
   EXPECT_LT(furthest(walls), 25);
+}
+
+// Pair() flies along x at some 10 m/s: into a block in its way, or not.
+TEST(Replay, ObstaclesAreAvoidedByModelsThatSeeThem) {
+  const ModelSpec bswarm{.name = "bswarm",
+                         .parameters = {{"s_max", 20},
+                                        {"curl_gain", 0},
+                                        {"sight", 5},
+                                        {"horizon", 1},
+                                        {"drive", 0},
+                                        {"w_rep", 0},
+                                        {"w_ali", 0},
+                                        {"w_att", 0}},
+                         .where = {},
+                         .where_of = {}};
+  ObstacleSpec block;
+  block.box = Region{{12, 0, -500}, {14, 20000, 500}};
+  ReplayOptions options;
+  options.duration = 4;
+  const auto furthest = [&](const std::vector<ObstacleSpec>& obstacles) {
+    double x = -1e9;
+    for (const Trajectory& t :
+         Replay(options, By(bswarm), Pair(), kFps, 1, 1, {}, obstacles).replayed.trajectories) {
+      for (const TrajectoryPoint& point : t.points) x = std::max(x, point.position.x);
+    }
+    return x;
+  };
+  EXPECT_GT(furthest({}), 20);
+  EXPECT_LT(furthest({block}), 12.01);
+  const ModelSpec boids{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
+  EXPECT_THROW(Replay(options, By(boids), Pair(), kFps, 1, 1, {}, {block}), InputError);
+  options.alpha = 0.5;
+  EXPECT_THROW(Replay(options, By(bswarm), Pair(), kFps, 1, 1, {}, {block}), std::invalid_argument);
 }
 
 TEST(Replay, RefusesAFrameWithoutAnimals) {
