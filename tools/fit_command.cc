@@ -96,22 +96,28 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
   nlohmann::ordered_json json = {{"method", NameOf(result.method)},
                                  {"animals", result.animals},
                                  {"frames", result.frames},
-                                 {"rows", result.rows},
-                                 {"rows_clamped", result.rows_clamped},
-                                 {"rows_mixed", result.rows_mixed},
-                                 {"window", result.window},
-                                 {"acceleration_sd", result.acceleration_sd},
-                                 {"residual_sd", result.residual_sd},
-                                 {"r2", result.r2},
-                                 {"noise_sd", NumberOrNull(result.noise_sd)},
-                                 {"noise_time", NumberOrNull(result.noise_time)},
-                                 {"diffusion", NumberOrNull(result.diffusion)},
-                                 {"own_speed_mean", result.own_speed_mean},
-                                 {"own_speed_sd", result.own_speed_sd},
-                                 {"condition", NumberOrNull(result.condition)}};
-  if (result.diffusion_sd) json["diffusion_sd"] = *result.diffusion_sd;
+                                 {"rows", result.rows}};
   for (const auto& [name, misfit] : result.misfit) json["misfit"][name] = misfit;
   if (result.velocity_noise) json["velocity_noise"] = *result.velocity_noise;
+  if (result.method == FitMethod::kNoiseField) json["r2"] = result.r2;
+  if (result.method == FitMethod::kStatistics) json["own_speed_mean"] = result.own_speed_mean;
+  const bool accelerates =
+      result.method != FitMethod::kNoiseField && result.method != FitMethod::kStatistics;
+  if (accelerates) {
+    json.update({{"rows_clamped", result.rows_clamped},
+                 {"rows_mixed", result.rows_mixed},
+                 {"window", result.window},
+                 {"acceleration_sd", result.acceleration_sd},
+                 {"residual_sd", result.residual_sd},
+                 {"r2", result.r2},
+                 {"noise_sd", NumberOrNull(result.noise_sd)},
+                 {"noise_time", NumberOrNull(result.noise_time)},
+                 {"diffusion", NumberOrNull(result.diffusion)},
+                 {"own_speed_mean", result.own_speed_mean},
+                 {"own_speed_sd", result.own_speed_sd},
+                 {"condition", NumberOrNull(result.condition)}});
+  }
+  if (result.diffusion_sd) json["diffusion_sd"] = *result.diffusion_sd;
   if (result.position_noise) json["position_noise"] = *result.position_noise;
   if (result.r2_held_out) json["r2_held_out"] = *result.r2_held_out;
   for (const GoalSpec& goal : result.parameters.goals) {
@@ -121,6 +127,7 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
     json["weights"].push_back(WeightAsJson(weight));
   }
   json["correlation"] = result.parameters.posterior.correlation;
+  if (!accelerates) return json;
   json["best_direction"] = DirectionAsJson(result, result.best);
   json["worst_direction"] = DirectionAsJson(result, result.worst);
   return json;
