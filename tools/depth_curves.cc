@@ -23,6 +23,9 @@ constexpr std::string_view kStyle = R"css(
   --c0: #0072b2; --c1: #d55e00; --c2: #009e73; --c3: #b3589a; --c4: #c98a00; --c5: #3f9bd4; }
 text { font: 12px sans-serif; fill: var(--ink); }
 .title { font-size: 15px; font-weight: 600; }
+.label, .tick { fill: var(--muted); }
+.grid { stroke: var(--grid); fill: none; }
+.axis { stroke: var(--muted); fill: none; }
 )css";
 
 Plot PanelPlot(const DepthPanel& panel) {
