@@ -104,10 +104,11 @@ std::string DepthCurvesPicture(const std::vector<DepthPanel>& panels) {
   for (int k = 0; k < count; ++k) {
     const DepthPanel& panel = panels[static_cast<std::size_t>(k)];
     CheckPanel(panel);
+    const int column = k % kColumns, row = k / kColumns;
     svg += fmt::format(
         "<svg x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\">\n{}</svg>\n",
-        kGap + (k % kColumns) * (kPanelWidth + kGap), top + (k / kColumns) * row_height,
-        kPanelWidth, kPanelHeight, PanelPlot(panel).Svg());
+        kGap + column * (kPanelWidth + kGap), top + row * row_height, kPanelWidth, kPanelHeight,
+        PanelPlot(panel).Svg());
   }
   return svg + "</svg>\n";
 }

@@ -7,6 +7,8 @@
 #ifndef FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_REPROJECTION_H_
 #define FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_REPROJECTION_H_
 
+#include <cstddef>
+
 #include "reconstruct/cost_functions/path.h"
 
 namespace flocklift {
@@ -20,7 +22,7 @@ struct ReprojectionError {
   template <typename T>
   bool operator()(const T* c, T* residuals) const {
     T x(0.0), y(0.0);
-    for (int a = 0; a < 4; ++a) {
+    for (std::size_t a = 0; a < 4; ++a) {
       x += weights[a] * c[3 * a];
       y += weights[a] * c[3 * a + 1];
     }
