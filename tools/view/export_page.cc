@@ -94,7 +94,8 @@ std::string MakeExportPage(const PageFiles& page, const RunData& data,
     json["windows"][what] = table != nullptr ? WindowsOf(*table, last) : Json::array();
   }
   const TrajectoryTable* flock = data.Table("before");
-  json["series"] = FlockSeries(flock != nullptr ? *flock : TrajectoryTable{}, data.run().camera);
+  const TrajectoryTable none{};
+  json["series"] = FlockSeries(flock != nullptr ? *flock : none, data.run().camera);
   json["pictures"] = Json::array();
   json["stride"] = 1;
   if (const auto& footage = data.footage()) {

@@ -82,7 +82,8 @@ class FolderView::Impl {
     const std::shared_lock lock(mutex_);
     if (what == "boxes") return BinaryReply(PackWindow(data_.boxes(), first, last));
     const TrajectoryTable* table = data_.Table(what);
-    return BinaryReply(PackWindow(table != nullptr ? *table : TrajectoryTable{}, first, last));
+    static const TrajectoryTable kNone{};  // a temporary here would copy the whole table
+    return BinaryReply(PackWindow(table != nullptr ? *table : kNone, first, last));
   }
 
   HttpReply Series(const HttpRequest& request) {
