@@ -35,9 +35,8 @@ class Company {
 
   // Ascending; all that are nearer than `reach` to somebody are among them.
   const std::vector<Animal>& animals() const { return animals_; }
-  // Of the cell that a place is in, taken down by `shift` cells along each axis before. taken down
-  // by `shift` cells along each axis before.
-  std::uint32_t Cell(T x, T y, T z, T shift = T(0)) const;
+  // Number of the cell that an animal, counted through all crowds, is in.
+  std::uint32_t CellOf(std::uint32_t animal) const { return cell_[animal]; }
   std::uint32_t across_y() const { return across_y_; }
   std::uint32_t across_z() const { return across_z_; }
 
@@ -45,6 +44,8 @@ class Company {
   static double Density(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, T reach);
 
  private:
+  // Of the cell that a place is in, taken down by `shift` cells along each axis before.
+  std::uint32_t Cell(T x, T y, T z, T shift = T(0)) const;
   void Number(const Crowd<T>& crowd, std::int64_t first, std::int64_t last,
               std::uint32_t* to) const;
   void NumberLattice(const CrowdBox<T>& box, T reach, std::size_t animals);

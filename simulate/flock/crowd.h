@@ -29,6 +29,15 @@ struct Crowd {
   T RoomOf(std::size_t k) const { return body != nullptr ? room + body[k] : room; }
 };
 
+// Two that are nearer than they may be, in the order of whoever sorted them, and from the first to
+// the second.
+template <typename T>
+struct ClosePair {
+  std::uint32_t first, second;
+  Vec3<T> way;          // [m]
+  T squared, distance;  // of the way [m^2], and how far apart they have to be [m]
+};
+
 template <typename T>
 struct CrowdBox {
   Vec3<T> low, high;  // [m]

@@ -92,16 +92,18 @@ class FlockMorph {
     void Resize(std::size_t n);
     void Set(std::size_t k, const Vec3d& v);
     void Set(std::size_t k, const Vec3<float>& v);
+    Vec3<float> As(std::size_t k) const { return {x[k], y[k], z[k]}; }
     Vec3d At(std::size_t k) const { return {x[k], y[k], z[k]}; }
   };
 
   void SetShapes(const MorphScene& scene);
   void SetSegment(std::size_t rank, std::uint32_t segment);
-  void PassGates(std::size_t rank);
+  void PassGates(std::size_t rank, bool may_be_there);
   void Depart();
   void BlowStyle(std::size_t first, std::size_t last);
   void Avoid(std::size_t first, std::size_t last);
-  void KeepDistance(ThreadPool* pool);
+  void Move(ThreadPool* pool, CrowdBox<float>* box);
+  void KeepDistance(const CrowdBox<float>& box, ThreadPool* pool);
   void Settle();
   MorphMoveJob MoveJob();
   MorphShapeJob ShapeJob();

@@ -16,7 +16,18 @@ namespace {
 
 constexpr std::int64_t kGrain = 2048;  // tetrahedra a chunk of work, a multiple of 16
 constexpr double kNearPlace = 3;       // radii: so near its place nobody is led around anything
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+constexpr float kFar = std::numeric_limits<float>::max();
+
+CrowdBox<float> UnionOf(const std::vector<MorphBox>& boxes) {
+  CrowdBox<float> all{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  for (const MorphBox& box : boxes) {
+    all.low = {std::min(all.low.x, box.low[0]), std::min(all.low.y, box.low[1]),
+               std::min(all.low.z, box.low[2])};
+    all.high = {std::max(all.high.x, box.high[0]), std::max(all.high.y, box.high[1]),
+                std::max(all.high.z, box.high[2])};
+  }
+  return all;
+}
 
 }  // namespace
 
@@ -31,13 +42,12 @@ void FlockMorph::SetSegment(std::size_t rank, std::uint32_t segment) {
 }
 
 // In the region, or at the path's end beside it, it turns to its place.
-void FlockMorph::PassGates(std::size_t rank) {
-  const Vec3d p = position_.At(rank);
-  if (region_.Contains(p)) {
+void FlockMorph::PassGates(std::size_t rank, bool may_be_there) {
+  if (may_be_there && region_.Contains(position_.At(rank))) {
     progress_[rank] = 0;
     return;
   }
-  const std::uint32_t before = segment_[rank], now = path_.Onwards(before, p);
+  const std::uint32_t before = segment_[rank], now = path_.Onwards(before, position_.As(rank));
   if (path_.AtEnd(now)) {
     progress_[rank] = 0;
   } else if (now != before) {
@@ -50,7 +60,7 @@ void FlockMorph::Depart() {
   for (; departed_ < count_ && departure_[departed_] <= now; ++departed_) {
     progress_[departed_] = kFollows;
     SetSegment(departed_, 0);
-    PassGates(departed_);
+    PassGates(departed_, true);
   }
 }
 
@@ -101,23 +111,16 @@ void FlockMorph::Avoid(std::size_t first, std::size_t last) {
 
 // ---- minimum distance -------------------------------------------------------------------------
 
-void FlockMorph::KeepDistance(ThreadPool* pool) {
+void FlockMorph::KeepDistance(const CrowdBox<float>& box, ThreadPool* pool) {
   touched_ = 0;
   if (options_.d_min == 0) return;
-  const auto room = static_cast<float>(0.5 * options_.d_min);
-  // Who keeps no distance any more has a room that compares with nothing.
-  const float end = options_.space_near_target ? 1.0F : 0.0F;
-  for (std::size_t k = first_; k < departed_; ++k) {
-    const float progress = progress_[k], kept = room * (1 - (progress > 0 ? progress : 0.0F));
-    room_[k] = progress < end ? kept : kNone;
-  }
   const Crowd<float> crowd{InFlight(),
                            position_.x.data() + first_,
                            position_.y.data() + first_,
                            position_.z.data() + first_,
                            0.0F,
                            room_.data() + first_};
-  touched_ = minimum_distance_.Enforce({&crowd, 1}, pool);
+  touched_ = minimum_distance_.Enforce({&crowd, 1}, box, pool);
   touched_in_all_ += touched_;
 }
 
@@ -125,28 +128,37 @@ void FlockMorph::KeepDistance(ThreadPool* pool) {
 
 void FlockMorph::Step(ThreadPool* pool) {
   Depart();
+  CrowdBox<float> box;
+  Move(pool, &box);
+  KeepDistance(box, pool);
+  ++steps_;
+  Settle();
+}
+
+void FlockMorph::Move(ThreadPool* pool, CrowdBox<float>* box) {
   const auto first = static_cast<std::int64_t>(first_ - first_ % 16);
   const auto last = static_cast<std::int64_t>(departed_);
   const MorphMoveJob job = MoveJob();
   const bool obstacles = !obstacles_.values.empty();
+  std::vector<MorphBox> boxes(static_cast<std::size_t>((last - first + kGrain - 1) / kGrain),
+                              {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}});
   pool->For(first, last, kGrain, [&](std::int64_t begin, std::int64_t end) {
-    std::array<std::uint32_t, kGrain> events;
+    std::array<std::uint32_t, kGrain + 8> events;
     const auto a = static_cast<std::size_t>(begin), b = static_cast<std::size_t>(end);
-    const auto copy = [&](const Column& from, Column* to) {
-      std::copy(from.begin() + begin, from.begin() + end, to->begin() + begin);
-    };
-    copy(position_.x, &before_.x);
-    copy(position_.y, &before_.y);
-    copy(position_.z, &before_.z);
     BlowStyle(a, b);
-    const std::uint32_t count = kernel_->move(job, static_cast<std::uint32_t>(begin),
-                                              static_cast<std::uint32_t>(end), events.data());
+    const std::uint32_t count =
+        kernel_->move(job, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
+                      events.data(), &boxes[static_cast<std::size_t>((begin - first) / kGrain)]);
     if (obstacles) Avoid(a, b);
-    for (std::uint32_t e = 0; e < count; ++e) PassGates(events[e]);
+    for (std::uint32_t e = 0; e < count; ++e) {
+      PassGates(events[e] & ~kMorphInRegion, obstacles || (events[e] & kMorphInRegion) != 0);
+    }
   });
-  KeepDistance(pool);
-  ++steps_;
-  Settle();
+  *box = UnionOf(boxes);
+  if (obstacles) {
+    const Crowd<float> crowd{departed_, position_.x.data(), position_.y.data(), position_.z.data()};
+    *box = BoxAround<float>({&crowd, 1}, pool);
+  }
 }
 
 // Those of the lowest ranks that have arrived get their target's own corners, and rest.
@@ -175,11 +187,14 @@ MorphMoveJob FlockMorph::MoveJob() {
   const MorphOptions& o = options_;
   const bool styled = o.omega2 != 0 && o.style != MorphStyle::kNone, wide = o.width > 0;
   const auto f = [](double value) { return static_cast<float>(value); };
-  const BoundingSphere& sphere = region_.sphere();
   return {.x = position_.x.data(),
           .y = position_.y.data(),
           .z = position_.z.data(),
+          .before_x = before_.x.data(),
+          .before_y = before_.y.data(),
+          .before_z = before_.z.data(),
           .progress = progress_.data(),
+          .room = o.d_min > 0 ? room_.data() : nullptr,
           .way_x = way_.x.data(),
           .way_y = way_.y.data(),
           .way_z = way_.z.data(),
@@ -198,10 +213,9 @@ MorphMoveJob FlockMorph::MoveJob() {
           .half_width = f(0.5 * o.width),
           .pull = f(o.pull),
           .dt = f(dt_),
-          .region_x = f(sphere.centre.x),
-          .region_y = f(sphere.centre.y),
-          .region_z = f(sphere.centre.z),
-          .squared_reach = f(sphere.radius * sphere.radius * (1 + 1e-5))};
+          .most_room = f(0.5 * o.d_min),
+          .spaced_until = o.space_near_target ? 1.0F : 0.0F,
+          .region = region_.View()};
 }
 
 MorphShapeJob FlockMorph::ShapeJob() {

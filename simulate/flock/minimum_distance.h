@@ -10,11 +10,11 @@
 // published; in a crush some are still too near afterwards.
 //
 // Where nearly all animals have nobody near, a bit for every cell of a lattice tells most of them
-// from the rest (simulate/flock/company.h), and only those with company are looked at. Whoever is
-// looked at goes into a grid (simulate/flock/near_grid.h) or, where the flock is so scattered that
-// its cells would hold crowds, into a hashed table. Linear in animals, whatever the extent of the
-// scene, and fastest when neighbours in space are neighbours in memory. One room far larger than
-// the others makes it slow.
+// from the rest (simulate/flock/company.h), and only those with company go into a table of buckets
+// (simulate/flock/close_table.h). So it is where a flock is so scattered that the cells of a grid
+// would hold crowds; all others are in a grid (simulate/flock/near_grid.h). Linear in animals,
+// whatever the extent of the scene, and fastest when neighbours in space are neighbours in memory.
+// One room far larger than the others makes it slow.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_MINIMUM_DISTANCE_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_MINIMUM_DISTANCE_H_
@@ -25,6 +25,7 @@
 
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/vec3.h"
+#include "simulate/flock/close_table.h"
 #include "simulate/flock/company.h"
 #include "simulate/flock/crowd.h"
 #include "simulate/flock/near_grid.h"
@@ -34,24 +35,20 @@ namespace flocklift {
 template <typename T>
 class MinimumDistance {
  public:
-  // Returns how many animals were moved.
-  std::int64_t Enforce(std::span<const Crowd<T>> crowds, ThreadPool* pool);
+  // Returns how many animals were moved. `box` is around all of them.
+  std::int64_t Enforce(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, ThreadPool* pool);
+  std::int64_t Enforce(std::span<const Crowd<T>> crowds, ThreadPool* pool) {
+    return Enforce(crowds, BoxAround(crowds, pool), pool);
+  }
 
  private:
-  void Gather(std::span<const Crowd<T>> crowds);
-  void PutBack(std::span<const Crowd<T>> crowds) const;
-  Crowd<T> Close();
-  std::int64_t EnforceInGrid(std::span<const Crowd<T>> crowds, ThreadPool* pool);
-  std::int64_t EnforceInTable(ThreadPool* pool);
-  void Chain();
-  Vec3<T> Push(std::size_t self, bool* touched) const;
+  template <typename Pairs>
+  std::int64_t PushApart(const Pairs& sorted, std::span<const Crowd<T>> crowds);
 
   NearGrid<T> grid_;
   Company<T> company_;
-  std::vector<T> x_, y_, z_, room_;        // of those with company
-  std::vector<std::int32_t> head_, next_;  // chains of them by bucket; -1: the end
-  std::vector<Vec3<T>> push_;              // of them [m]
-  std::vector<std::uint8_t> touched_;      // of them, or of all animals in the grid
+  CloseTable<T> table_;
+  std::vector<std::uint8_t> touched_;  // of all animals
 };
 
 extern template class MinimumDistance<float>;

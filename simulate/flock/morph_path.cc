@@ -22,11 +22,8 @@ MorphPath::MorphPath(const std::vector<Vec3d>& key_points) {
   }
 }
 
-std::uint32_t MorphPath::Onwards(std::uint32_t segment, const Vec3d& p) const {
-  while (!AtEnd(segment) &&
-         Dot(ToDouble(segments_[segment].way), p) > static_cast<double>(segments_[segment].gate)) {
-    ++segment;
-  }
+std::uint32_t MorphPath::Onwards(std::uint32_t segment, const Vec3<float>& p) const {
+  while (!AtEnd(segment) && Dot(p, segments_[segment].way) > segments_[segment].gate) ++segment;
   return segment;
 }
 

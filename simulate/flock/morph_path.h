@@ -33,7 +33,7 @@ class MorphPath {
 
   // The segment on which somebody at p is who was on `segment` before; beyond the path's end as
   // many as there are.
-  std::uint32_t Onwards(std::uint32_t segment, const Vec3d& p) const;
+  std::uint32_t Onwards(std::uint32_t segment, const Vec3<float>& p) const;
   bool AtEnd(std::uint32_t segment) const { return segment == segments_.size(); }
 
  private:

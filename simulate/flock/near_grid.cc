@@ -147,7 +147,7 @@ bool NearGrid<T>::Sort(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box,
 }
 
 template <typename T>
-void NearGrid<T>::AppendPairs(std::uint32_t first, std::vector<Pair>* pairs) const {
+void NearGrid<T>::AppendPairs(std::uint32_t first, std::vector<ClosePair<T>>* pairs) const {
   const auto look_through = [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t j = begin; j < end; ++j) {
       const Vec3<T> way{x_[j] - x_[first], y_[j] - y_[first], z_[j] - z_[first]};
@@ -171,7 +171,7 @@ void NearGrid<T>::FindPairs(ThreadPool* pool) {
   pool->For(
       0, static_cast<std::int64_t>(n_), kCrowdGrain, [&](std::int64_t first, std::int64_t last) {
         const auto a = static_cast<std::uint32_t>(first), b = static_cast<std::uint32_t>(last);
-        std::vector<Pair>& pairs = pairs_[a / kCrowdGrain];
+        std::vector<ClosePair<T>>& pairs = pairs_[a / kCrowdGrain];
         pairs.clear();
         if constexpr (std::is_same_v<T, float>) {
           std::vector<std::uint32_t>& has = has_[a / kCrowdGrain];

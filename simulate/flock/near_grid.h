@@ -26,13 +26,6 @@ namespace flocklift {
 template <typename T>
 class NearGrid {
  public:
-  // A pair in the order of the sort, and from the first to the second.
-  struct Pair {
-    std::uint32_t first, second;
-    Vec3<T> way;          // [m]
-    T squared, distance;  // of the way [m^2], and how far apart they have to be [m]
-  };
-
   // Sorts the animals in the box around them. `reach` is the largest distance asked for, above 0
   // [m]. False if the flock does not suit a grid.
   bool Sort(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, T reach, ThreadPool* pool);
@@ -40,7 +33,7 @@ class NearGrid {
   void FindPairs(ThreadPool* pool);
 
   // By chunk of animals.
-  const std::vector<std::vector<Pair>>& pairs() const { return pairs_; }
+  const std::vector<std::vector<ClosePair<T>>>& pairs() const { return pairs_; }
   // Which animal, counted through all crowds, is at a place of the sort.
   std::uint32_t Animal(std::uint32_t place) const { return animal_[place]; }
 
@@ -48,7 +41,7 @@ class NearGrid {
   bool ChooseCells(const CrowdBox<T>& box, T reach);
   void NumberCells(std::span<const Crowd<T>> crowds, ThreadPool* pool);
   bool Count();
-  void AppendPairs(std::uint32_t first, std::vector<Pair>* pairs) const;
+  void AppendPairs(std::uint32_t first, std::vector<ClosePair<T>>* pairs) const;
 
   std::size_t n_ = 0;
   Vec3<T> low_;
@@ -61,7 +54,7 @@ class NearGrid {
   std::vector<T> x_, y_, z_, room_;              // sorted, padded
   std::vector<std::uint32_t> place_, animal_;    // sorted: the cell, and who it is
   std::vector<std::vector<std::uint32_t>> has_;  // animals with somebody too near behind, by chunk
-  std::vector<std::vector<Pair>> pairs_;
+  std::vector<std::vector<ClosePair<T>>> pairs_;
 };
 
 extern template class NearGrid<float>;

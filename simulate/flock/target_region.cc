@@ -166,26 +166,35 @@ void TargetRegion::FillCells(std::span<const Tetra> target, double margin) {
     high_ = Most(high_, Centroid(t) + Vec3d{reach, reach, reach});
   }
   const Vec3d size = high_ - low_;
-  cell_ = std::max(margin / kCellsPerMargin, std::cbrt(size.x * size.y * size.z / kMostCells));
-  n_ = {static_cast<int>(size.x / cell_) + 1, static_cast<int>(size.y / cell_) + 1,
-        static_cast<int>(size.z / cell_) + 1};
-  near_.assign(static_cast<std::size_t>(n_[0]) * n_[1] * n_[2], false);
+  const double cell =
+      std::max(margin / kCellsPerMargin, std::cbrt(size.x * size.y * size.z / kMostCells));
+  const int nx = static_cast<int>(size.x / cell) + 1, ny = static_cast<int>(size.y / cell) + 1,
+            nz = static_cast<int>(size.z / cell) + 1;
+  cells_.low_x = static_cast<float>(low_.x);
+  cells_.low_y = static_cast<float>(low_.y);
+  cells_.low_z = static_cast<float>(low_.z);
+  cells_.per_cell = static_cast<float>(1 / cell);
+  cells_.nx = nx;
+  cells_.ny = ny;
+  cells_.nz = nz;
+  bits_.assign((static_cast<std::size_t>(nx) * ny * nz + 7) / 8, 0);
   for (const Tetra& t : target) {
     const double reach = BoundingRadius(t) + margin;
     const Vec3d centre = Centroid(t) - low_;
     const auto range = [&](double x, int n) {
-      return std::pair(std::max(0, static_cast<int>((x - reach) / cell_)),
-                       std::min(n - 1, static_cast<int>((x + reach) / cell_)));
+      return std::pair(std::max(0, static_cast<int>((x - reach) / cell)),
+                       std::min(n - 1, static_cast<int>((x + reach) / cell)));
     };
-    const auto [i0, i1] = range(centre.x, n_[0]);
-    const auto [j0, j1] = range(centre.y, n_[1]);
-    const auto [k0, k1] = range(centre.z, n_[2]);
+    const auto [i0, i1] = range(centre.x, nx);
+    const auto [j0, j1] = range(centre.y, ny);
+    const auto [k0, k1] = range(centre.z, nz);
     for (int k = k0; k <= k1; ++k) {
       for (int j = j0; j <= j1; ++j) {
         for (int i = i0; i <= i1; ++i) {
-          const Vec3d middle = cell_ * Vec3d{i + 0.5, j + 0.5, k + 0.5};
+          const Vec3d middle = cell * Vec3d{i + 0.5, j + 0.5, k + 0.5};
           if (SquaredNorm(middle - centre) > reach * reach) continue;
-          near_[(static_cast<std::size_t>(k) * n_[1] + j) * n_[0] + i] = true;
+          const std::size_t at = (static_cast<std::size_t>(k) * ny + j) * nx + i;
+          bits_[at / 8] |= static_cast<std::uint8_t>(1U << at % 8);
         }
       }
     }
@@ -200,11 +209,25 @@ bool TargetRegion::Contains(const Vec3d& p) const {
     const Vec3d along{Dot(axes_[0], p), Dot(axes_[1], p), Dot(axes_[2], p)};
     return along == Most(low_, Least(high_, along));
   }
-  const Vec3d u = (p - low_) / cell_;
-  if (u.x < 0 || u.y < 0 || u.z < 0) return false;
-  const int i = static_cast<int>(u.x), j = static_cast<int>(u.y), k = static_cast<int>(u.z);
-  if (i >= n_[0] || j >= n_[1] || k >= n_[2]) return false;
-  return near_[(static_cast<std::size_t>(k) * n_[1] + j) * n_[0] + i];
+  const MorphRegion& c = cells_;
+  const float u = (static_cast<float>(p.x) - c.low_x) * c.per_cell,
+              v = (static_cast<float>(p.y) - c.low_y) * c.per_cell,
+              w = (static_cast<float>(p.z) - c.low_z) * c.per_cell;
+  if (!(u >= 0 && v >= 0 && w >= 0)) return false;
+  const int i = static_cast<int>(u), j = static_cast<int>(v), k = static_cast<int>(w);
+  if (i >= c.nx || j >= c.ny || k >= c.nz) return false;
+  const std::size_t at = (static_cast<std::size_t>(k) * c.ny + j) * c.nx + i;
+  return (bits_[at / 8] >> at % 8 & 1) != 0;
+}
+
+MorphRegion TargetRegion::View() const {
+  MorphRegion view = cells_;
+  view.cells = kind_ == RegionKind::kShape ? bits_.data() : nullptr;
+  view.sphere_x = static_cast<float>(sphere_.centre.x);
+  view.sphere_y = static_cast<float>(sphere_.centre.y);
+  view.sphere_z = static_cast<float>(sphere_.centre.z);
+  view.squared_reach = static_cast<float>(sphere_.radius * sphere_.radius * (1 + 1e-5));
+  return view;
 }
 
 }  // namespace flocklift

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "simulate/core/vec3.h"
+#include "simulate/flock/kernels/morph_kernel.h"
 #include "simulate/shapes/tetra_mesh.h"
 
 namespace flocklift {
@@ -40,6 +41,8 @@ class TargetRegion {
   TargetRegion(RegionKind kind, std::span<const Tetra> target, double margin);
 
   bool Contains(const Vec3d& p) const;
+  // What the kernel needs to know of it: whoever is in the region is in this too.
+  MorphRegion View() const;
   const BoundingSphere& sphere() const { return sphere_; }
 
  private:
@@ -48,11 +51,10 @@ class TargetRegion {
 
   RegionKind kind_ = RegionKind::kSphere;
   BoundingSphere sphere_;
-  std::array<Vec3d, 3> axes_;  // of the box, unit
-  Vec3d low_, high_;           // along the axes; of the grid of cells
-  double cell_ = 1;            // [m]
-  std::array<int, 3> n_{};
-  std::vector<bool> near_;  // cells of the shape, x fastest
+  std::array<Vec3d, 3> axes_;       // of the box, unit
+  Vec3d low_, high_;                // along the axes; of the grid of cells
+  MorphRegion cells_{};             // of the shape
+  std::vector<std::uint8_t> bits_;  // likewise
 };
 
 }  // namespace flocklift

@@ -7,13 +7,23 @@
 
 FLOCKLIFT_KERNEL_ARCH(Avx2, xsimd::fma3<xsimd::avx2>)
 
+namespace flocklift {
+namespace {
+
+unsigned LaneMask(const xsimd::batch_bool<float, Avx2>& lanes) {
+  return static_cast<unsigned>(_mm256_movemask_ps(lanes.data));
+}
+
+}  // namespace
+}  // namespace flocklift
+
 #include "simulate/flock/kernels/morph_kernel_inl.h"
 
 namespace flocklift {
 
 std::uint32_t MorphMoveAvx2(const MorphMoveJob& job, std::uint32_t first, std::uint32_t last,
-                            std::uint32_t* events) {
-  return MorphMove<xsimd::batch<float, Avx2>>(job, first, last, events);
+                            std::uint32_t* events, MorphBox* box) {
+  return MorphMove<xsimd::batch<float, Avx2>>(job, first, last, events, box);
 }
 
 void MorphShapeAvx2(const MorphShapeJob& job, std::uint32_t first, std::uint32_t last) {

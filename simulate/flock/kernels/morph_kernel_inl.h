@@ -8,6 +8,7 @@
 #define FLOCKLIFT_SIMULATE_FLOCK_KERNELS_MORPH_KERNEL_INL_H_
 
 #include <cstdint>
+#include <limits>
 #include <xsimd/xsimd.hpp>
 
 #include "simulate/core/vec3.h"
@@ -21,47 +22,117 @@ Vec3<Pack> Load(const float* x, const float* y, const float* z, std::uint32_t k)
   return {Pack::load_unaligned(x + k), Pack::load_unaligned(y + k), Pack::load_unaligned(z + k)};
 }
 
+template <typename Pack>
+void Store(const Vec3<Pack>& p, float* x, float* y, float* z, std::uint32_t k) {
+  p.x.store_unaligned(x + k);
+  p.y.store_unaligned(y + k);
+  p.z.store_unaligned(z + k);
+}
+
 template <typename Mask, typename Pack>
 Vec3<Pack> Choose(const Mask& mask, const Vec3<Pack>& a, const Vec3<Pack>& b) {
   return {xsimd::select(mask, a.x, b.x), xsimd::select(mask, a.y, b.y),
           xsimd::select(mask, a.z, b.z)};
 }
 
+inline bool InRegion(const MorphRegion& region, float x, float y, float z) {
+  if (region.cells == nullptr) return true;
+  const float u = (x - region.low_x) * region.per_cell, v = (y - region.low_y) * region.per_cell,
+              w = (z - region.low_z) * region.per_cell;
+  if (!(u >= 0 && v >= 0 && w >= 0)) return false;
+  const auto i = static_cast<std::int32_t>(u), j = static_cast<std::int32_t>(v),
+             l = static_cast<std::int32_t>(w);
+  if (i >= region.nx || j >= region.ny || l >= region.nz) return false;
+  const std::int32_t cell = (l * region.ny + j) * region.nx + i;
+  return (region.cells[cell >> 3] >> (cell & 7) & 1) != 0;
+}
+
+// Box around packs, a box a lane.
+template <typename Pack>
+struct LaneBoxes {
+  Vec3<Pack> low, high;
+
+  explicit LaneBoxes(const MorphBox& box)
+      : low{Pack(box.low[0]), Pack(box.low[1]), Pack(box.low[2])},
+        high{Pack(box.high[0]), Pack(box.high[1]), Pack(box.high[2])} {}
+
+  void Add(const Vec3<Pack>& p) {  // in this order what is not a number does not count
+    low = {xsimd::min(p.x, low.x), xsimd::min(p.y, low.y), xsimd::min(p.z, low.z)};
+    high = {xsimd::max(p.x, high.x), xsimd::max(p.y, high.y), xsimd::max(p.z, high.z)};
+  }
+  void Add(const Vec3<Pack>& p, std::uint32_t lanes) {
+    alignas(64) float some[Pack::size];
+    const auto first = [&](const Pack& from, const Pack& rest) {
+      alignas(64) float kept[Pack::size];
+      from.store_aligned(some);
+      rest.store_aligned(kept);
+      for (std::uint32_t lane = lanes; lane < Pack::size; ++lane) some[lane] = kept[lane];
+      return Pack::load_aligned(some);
+    };
+    Add({first(p.x, low.x), first(p.y, low.y), first(p.z, low.z)});
+  }
+
+  void Store(MorphBox* box) const {
+    const auto all = [](const Pack& lanes, float start, auto better) {
+      alignas(64) float each[Pack::size];
+      lanes.store_aligned(each);
+      for (const float v : each) start = better(v, start) ? v : start;
+      return start;
+    };
+    const auto less = [](float a, float b) { return a < b; };
+    const auto more = [](float a, float b) { return a > b; };
+    const Pack lows[3] = {low.x, low.y, low.z}, highs[3] = {high.x, high.y, high.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      box->low[axis] = all(lows[axis], box->low[axis], less);
+      box->high[axis] = all(highs[axis], box->high[axis], more);
+    }
+  }
+};
+
+// Where those that follow the path are after a step.
+template <typename Pack>
+Vec3<Pack> Follow(const MorphMoveJob& job, std::uint32_t k, const Vec3<Pack>& x,
+                  const Vec3<Pack>& way) {
+  Vec3<Pack> velocity = way * Pack(job.path_speed);
+  if (job.style_x != nullptr) velocity += Load<Pack>(job.style_x, job.style_y, job.style_z, k);
+  if (job.path_x != nullptr) {  // back to the path where it is farther than half the width
+    const Vec3<Pack> from_path = x - Load<Pack>(job.path_x, job.path_y, job.path_z, k);
+    const Vec3<Pack> aside = from_path - way * Dot(from_path, way);
+    const Pack distance = xsimd::sqrt(Dot(aside, aside));
+    const Pack beyond = xsimd::max(Pack(0.0f), distance - Pack(job.half_width));
+    velocity -= aside * (Pack(job.pull) * beyond / xsimd::max(distance, Pack(1e-20f)));
+  }
+  return x + velocity * Pack(job.dt);
+}
+
 template <typename Pack>
 std::uint32_t MorphMove(const MorphMoveJob& job, std::uint32_t first, std::uint32_t last,
-                        std::uint32_t* events) {
+                        std::uint32_t* events, MorphBox* box) {
   constexpr auto kLanes = static_cast<std::uint32_t>(Pack::size);
-  const Pack zero(0.0f), one(1.0f), dt(job.dt), step(job.speed * job.dt), tiny(1e-20f);
-  const Vec3<Pack> region{Pack(job.region_x), Pack(job.region_y), Pack(job.region_z)};
+  const Pack zero(0.0f), one(1.0f), step(job.speed * job.dt), tiny(1e-20f);
+  const MorphRegion& region = job.region;
+  const Vec3<Pack> middle{Pack(region.sphere_x), Pack(region.sphere_y), Pack(region.sphere_z)};
+  LaneBoxes<Pack> boxes(*box);
   std::uint32_t count = 0;
   for (std::uint32_t k = first; k < last; k += kLanes) {
     const Pack progress = Pack::load_unaligned(job.progress + k);
     const auto nears = progress >= zero, follows = progress == Pack(kFollows);
-    Vec3<Pack> x = Load<Pack>(job.x, job.y, job.z, k);
+    const Vec3<Pack> x = Load<Pack>(job.x, job.y, job.z, k);
     Vec3<Pack> next = x;
     Pack next_progress = progress;
     if (xsimd::any(follows)) {
       const Vec3<Pack> way = Load<Pack>(job.way_x, job.way_y, job.way_z, k);
-      Vec3<Pack> velocity = way * Pack(job.path_speed);
-      if (job.style_x != nullptr) velocity += Load<Pack>(job.style_x, job.style_y, job.style_z, k);
-      if (job.path_x != nullptr) {  // back to the path where it is farther than half the width
-        const Vec3<Pack> from_path = x - Load<Pack>(job.path_x, job.path_y, job.path_z, k);
-        const Vec3<Pack> aside = from_path - way * Dot(from_path, way);
-        const Pack distance = xsimd::sqrt(Dot(aside, aside));
-        const Pack beyond = xsimd::max(zero, distance - Pack(job.half_width));
-        velocity -= aside * (Pack(job.pull) * beyond / xsimd::max(distance, tiny));
-      }
-      next = Choose(follows, x + velocity * dt, x);
-      const Vec3<Pack> to_region = next - region;
-      const auto gate = Dot(next, way) > Pack::load_unaligned(job.gate + k);
-      const auto inside = Dot(to_region, to_region) < Pack(job.squared_reach);
-      const auto event = follows && (gate || inside);
-      if (xsimd::any(event)) {
-        alignas(64) float lanes[Pack::size];
-        xsimd::select(event, one, zero).store_aligned(lanes);
-        for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-          if (lanes[lane] != 0 && k + lane < last) events[count++] = k + lane;
-        }
+      next = Choose(follows, Follow(job, k, x, way), x);
+      const Vec3<Pack> from_middle = next - middle;
+      const auto gate = follows && Dot(next, way) > Pack::load_unaligned(job.gate + k);
+      const auto near = follows && Dot(from_middle, from_middle) < Pack(region.squared_reach);
+      const unsigned gates = LaneMask(gate);
+      for (unsigned left = gates | LaneMask(near); left != 0; left &= left - 1) {
+        const auto lane = static_cast<std::uint32_t>(__builtin_ctz(left));
+        const bool inside = (LaneMask(near) >> lane & 1U) != 0 &&
+                            InRegion(region, next.x.get(lane), next.y.get(lane), next.z.get(lane));
+        events[count] = (k + lane) | (inside ? kMorphInRegion : 0);
+        count += (inside || (gates >> lane & 1U) != 0) && k + lane < last ? 1 : 0;
       }
     }
     if (xsimd::any(nears)) {
@@ -74,11 +145,22 @@ std::uint32_t MorphMove(const MorphMoveJob& job, std::uint32_t first, std::uint3
       next_progress = xsimd::select(
           nears, xsimd::select(arrives, one, one - (one - progress) * (one - share)), progress);
     }
-    next.x.store_unaligned(job.x + k);
-    next.y.store_unaligned(job.y + k);
-    next.z.store_unaligned(job.z + k);
+    if (last - k >= kLanes) {
+      boxes.Add(next);
+    } else {
+      boxes.Add(next, last - k);
+    }
+    Store(x, job.before_x, job.before_y, job.before_z, k);
+    Store(next, job.x, job.y, job.z, k);
     next_progress.store_unaligned(job.progress + k);
+    if (job.room != nullptr) {
+      const Pack room = Pack(job.most_room) * (one - xsimd::max(zero, next_progress));
+      const Pack none(std::numeric_limits<float>::quiet_NaN());
+      xsimd::select(next_progress < Pack(job.spaced_until), room, none)
+          .store_unaligned(job.room + k);
+    }
   }
+  boxes.Store(box);
   return count;
 }
 
@@ -114,9 +196,7 @@ Pack CosineTo90(const Pack& x) {
 
 template <typename Pack>
 void StoreCorner(const MorphShapeJob& job, int corner, std::uint32_t k, const Vec3<Pack>& p) {
-  p.x.store_unaligned(job.vertex[3 * corner] + k);
-  p.y.store_unaligned(job.vertex[3 * corner + 1] + k);
-  p.z.store_unaligned(job.vertex[3 * corner + 2] + k);
+  Store(p, job.vertex[3 * corner], job.vertex[3 * corner + 1], job.vertex[3 * corner + 2], k);
 }
 
 template <typename Pack, bool kShoemakes>

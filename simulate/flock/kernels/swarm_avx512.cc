@@ -29,4 +29,9 @@ std::uint32_t NearKernelAvx512(const NearJob& job, std::uint32_t first, std::uin
   return FindNear<xsimd::batch<float, Avx512Vl>>(job, first, last, found);
 }
 
+std::uint32_t CloseKernelAvx512(const CloseJob& job, std::uint32_t first, std::uint32_t last,
+                                std::uint32_t* found) {
+  return FindClose<xsimd::batch<float, Avx512Vl>>(job, first, last, found);
+}
+
 }  // namespace flocklift

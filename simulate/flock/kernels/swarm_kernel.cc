@@ -9,13 +9,13 @@ namespace flocklift {
 
 const SwarmKernelVariant kSwarmKernels[kSwarmKernelVariants] = {
     {"sse2", [] { return true; }, SwarmKernelSse2, CellKernelSse2, CompanyKernelSse2,
-     NearKernelSse2},
+     NearKernelSse2, CloseKernelSse2},
     {"avx2",
      [] { return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0; },
-     SwarmKernelAvx2, CellKernelAvx2, CompanyKernelAvx2, NearKernelAvx2},
+     SwarmKernelAvx2, CellKernelAvx2, CompanyKernelAvx2, NearKernelAvx2, CloseKernelAvx2},
     {"avx512",
      [] { return __builtin_cpu_supports("avx512vl") != 0 && __builtin_cpu_supports("fma") != 0; },
-     SwarmKernelAvx512, CellKernelAvx512, CompanyKernelAvx512, NearKernelAvx512},
+     SwarmKernelAvx512, CellKernelAvx512, CompanyKernelAvx512, NearKernelAvx512, CloseKernelAvx512},
 };
 
 void SwarmKernelScalar(const SwarmJob& job, std::uint32_t first, std::uint32_t last) {

@@ -87,6 +87,19 @@ struct NearJob {
 using NearKernel = std::uint32_t (*)(const NearJob& job, std::uint32_t first, std::uint32_t last,
                                      std::uint32_t* found);
 
+// Animals sorted by buckets (simulate/flock/close_table.h): which of them are nearer to somebody
+// behind them than the sum of their rooms. Each is tested against those behind it in two buckets
+// from each of (lowest + {0, across_y} + {0, across_z}) & mask on.
+struct CloseJob {
+  const float *x, *y, *z, *room;  // [m], sorted, 16 more may be read
+  const std::uint32_t* lowest;    // of each
+  const std::uint32_t* start;     // of each bucket's run; the end of all follows twice
+  std::uint32_t across_y, across_z, mask;
+};
+// As NearKernel.
+using CloseKernel = std::uint32_t (*)(const CloseJob& job, std::uint32_t first, std::uint32_t last,
+                                      std::uint32_t* found);
+
 struct SwarmKernelVariant {
   const char* name;
   bool (*supported)();  // by this machine
@@ -94,6 +107,7 @@ struct SwarmKernelVariant {
   CellKernel cells;
   CompanyKernel company;
   NearKernel near;
+  CloseKernel close;
 };
 
 // From the most portable to the fastest.
@@ -106,18 +120,24 @@ std::uint32_t CompanyKernelSse2(const CompanyJob& job, std::uint32_t first, std:
                                 std::uint32_t* found, std::uint32_t* lowest);
 std::uint32_t NearKernelSse2(const NearJob& job, std::uint32_t first, std::uint32_t last,
                              std::uint32_t* found);
+std::uint32_t CloseKernelSse2(const CloseJob& job, std::uint32_t first, std::uint32_t last,
+                              std::uint32_t* found);
 void SwarmKernelAvx2(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
 void CellKernelAvx2(const CellJob& job, std::uint32_t first, std::uint32_t last);
 std::uint32_t CompanyKernelAvx2(const CompanyJob& job, std::uint32_t first, std::uint32_t last,
                                 std::uint32_t* found, std::uint32_t* lowest);
 std::uint32_t NearKernelAvx2(const NearJob& job, std::uint32_t first, std::uint32_t last,
                              std::uint32_t* found);
+std::uint32_t CloseKernelAvx2(const CloseJob& job, std::uint32_t first, std::uint32_t last,
+                              std::uint32_t* found);
 void SwarmKernelAvx512(const SwarmJob& job, std::uint32_t first, std::uint32_t last);
 void CellKernelAvx512(const CellJob& job, std::uint32_t first, std::uint32_t last);
 std::uint32_t CompanyKernelAvx512(const CompanyJob& job, std::uint32_t first, std::uint32_t last,
                                   std::uint32_t* found, std::uint32_t* lowest);
 std::uint32_t NearKernelAvx512(const NearJob& job, std::uint32_t first, std::uint32_t last,
                                std::uint32_t* found);
+std::uint32_t CloseKernelAvx512(const CloseJob& job, std::uint32_t first, std::uint32_t last,
+                                std::uint32_t* found);
 
 // The same, one animal at a time.
 void SwarmKernelScalar(const SwarmJob& job, std::uint32_t first, std::uint32_t last);

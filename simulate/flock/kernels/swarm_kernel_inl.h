@@ -161,23 +161,41 @@ std::uint32_t FindCompany(const CompanyJob& job, std::uint32_t first, std::uint3
   return count;
 }
 
+// Whom those at some places of a sort are nearer to than the sum of their rooms; lanes hold others.
+template <typename Pack>
+struct TooNear {
+  static constexpr auto kLanes = static_cast<std::uint32_t>(Pack::size);
+  const float *x, *y, *z, *room;
+  Pack lanes;
+
+  TooNear(const float* xs, const float* ys, const float* zs, const float* rooms)
+      : x(xs), y(ys), z(zs), room(rooms) {
+    alignas(64) float numbers[kLanes];
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) numbers[lane] = static_cast<float>(lane);
+    lanes = Pack::load_aligned(numbers);
+  }
+  // A lane each for `begin` and those that follow, false from `end` on.
+  [[gnu::always_inline]] auto operator()(std::uint32_t k, std::uint32_t begin,
+                                         std::uint32_t end) const {
+    const Pack dx = Pack::load_unaligned(x + begin) - Pack(x[k]),
+               dy = Pack::load_unaligned(y + begin) - Pack(y[k]),
+               dz = Pack::load_unaligned(z + begin) - Pack(z[k]);
+    const Pack squared = dx * dx + dy * dy + dz * dz;
+    const Pack distance = Pack(room[k]) + Pack::load_unaligned(room + begin);
+    const auto count = static_cast<std::int32_t>(end - begin);  // below 0: nobody
+    return (squared < distance * distance) & (lanes < Pack(static_cast<float>(count)));
+  }
+};
+
 template <typename Pack>
 std::uint32_t FindNear(const NearJob& job, std::uint32_t first, std::uint32_t last,
                        std::uint32_t* found) {
   constexpr auto kLanes = static_cast<std::uint32_t>(Pack::size);
-  alignas(64) float numbers[kLanes];
-  for (std::uint32_t lane = 0; lane < kLanes; ++lane) numbers[lane] = static_cast<float>(lane);
-  const Pack lanes = Pack::load_aligned(numbers);
+  const TooNear<Pack> too_near(job.x, job.y, job.z, job.room);
   std::uint32_t count = 0;
   for (std::uint32_t k = first; k < last; ++k) {
-    const Pack x(job.x[k]), y(job.y[k]), z(job.z[k]), room(job.room[k]);
     const auto near = [&](std::uint32_t begin, std::uint32_t end) {
-      const Pack dx = Pack::load_unaligned(job.x + begin) - x,
-                 dy = Pack::load_unaligned(job.y + begin) - y,
-                 dz = Pack::load_unaligned(job.z + begin) - z;
-      const Pack squared = dx * dx + dy * dy + dz * dz;
-      const Pack distance = room + Pack::load_unaligned(job.room + begin);
-      return (squared < distance * distance) & (lanes < Pack(static_cast<float>(end - begin)));
+      return too_near(k, begin, end);
     };
     const bool at_rim = (job.cell[k] & kNearAtRim) != 0;
     const std::uint32_t* const start = job.start + (job.cell[k] & ~kNearAtRim);
@@ -196,6 +214,36 @@ std::uint32_t FindNear(const NearJob& job, std::uint32_t first, std::uint32_t la
         for (int row = 0; row < 4; ++row) {
           if (end[row] - begin[row] > done) any = any | near(begin[row] + done, end[row]);
         }
+      }
+    }
+    found[count] = k;
+    count += xsimd::any(any) ? 1 : 0;
+  }
+  return count;
+}
+
+template <typename Pack>
+std::uint32_t FindClose(const CloseJob& job, std::uint32_t first, std::uint32_t last,
+                        std::uint32_t* found) {
+  constexpr auto kLanes = static_cast<std::uint32_t>(Pack::size);
+  const TooNear<Pack> too_near(job.x, job.y, job.z, job.room);
+  const std::uint32_t across[4] = {0, job.across_y, job.across_z, job.across_y + job.across_z};
+  std::uint32_t count = 0;
+  for (std::uint32_t k = first; k < last; ++k) {
+    std::uint32_t begin[4], end[4];
+    std::int32_t longest = 0;
+    xsimd::batch_bool<float, typename Pack::arch_type> any(false);
+    for (int row = 0; row < 4; ++row) {  // without branches: most runs are short, many empty
+      const std::uint32_t bucket = (job.lowest[k] + across[row]) & job.mask;
+      begin[row] = job.start[bucket] > k ? job.start[bucket] : k + 1;
+      end[row] = job.start[bucket + 2];
+      const auto length = static_cast<std::int32_t>(end[row] - begin[row]);
+      longest = longest > length ? longest : length;
+      any = any | too_near(k, begin[row], end[row]);
+    }
+    for (auto done = kLanes; static_cast<std::int32_t>(done) < longest; done += kLanes) {
+      for (int row = 0; row < 4; ++row) {
+        if (begin[row] + done < end[row]) any = any | too_near(k, begin[row] + done, end[row]);
       }
     }
     found[count] = k;

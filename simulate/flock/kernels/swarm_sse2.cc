@@ -72,4 +72,9 @@ std::uint32_t NearKernelSse2(const NearJob& job, std::uint32_t first, std::uint3
   return FindNear<xsimd::batch<float, xsimd::sse2>>(job, first, last, found);
 }
 
+std::uint32_t CloseKernelSse2(const CloseJob& job, std::uint32_t first, std::uint32_t last,
+                              std::uint32_t* found) {
+  return FindClose<xsimd::batch<float, xsimd::sse2>>(job, first, last, found);
+}
+
 }  // namespace flocklift

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/flock/close_table.h"
+
+#include <algorithm>
+#include <bit>
+#include <type_traits>
+
+#include "simulate/flock/kernels/swarm_kernel.h"
+
+namespace flocklift {
+namespace {
+
+constexpr std::size_t kBucketsPerAnimal = 4;
+constexpr std::size_t kLeastBuckets = 64;
+constexpr std::size_t kPadding = 16;
+constexpr std::int64_t kGrain = kCrowdGrain / 4;  // animals a chunk of work
+
+}  // namespace
+
+template <typename T>
+void CloseTable<T>::Sort(const Company<T>& company, std::span<const Crowd<T>> crowds) {
+  const std::vector<typename Company<T>::Animal>& animals = company.animals();
+  const std::size_t n = animals.size();
+  const std::size_t buckets = std::bit_ceil(std::max(kBucketsPerAnimal * n, kLeastBuckets));
+  mask_ = static_cast<std::uint32_t>(buckets - 1);
+  across_y_ = company.across_y();
+  across_z_ = company.across_z();
+  start_.assign(buckets + 2, 0);
+  rank_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    rank_[k] = start_[company.CellOf(animals[k].animal) & mask_]++;
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t& start : start_) {
+    const std::uint32_t count = start;
+    start = sum;
+    sum += count;
+  }
+  for (std::vector<T>* column : {&x_, &y_, &z_, &room_}) column->resize(n + kPadding);
+  animal_.resize(n);
+  low_.resize(n);
+  std::size_t crowd = 0, before = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::uint32_t animal = animals[k].animal;
+    while (animal - before >= crowds[crowd].size) before += crowds[crowd++].size;
+    const std::size_t at = animal - before;
+    const std::uint32_t to = start_[company.CellOf(animal) & mask_] + rank_[k];
+    x_[to] = crowds[crowd].x[at];
+    y_[to] = crowds[crowd].y[at];
+    z_[to] = crowds[crowd].z[at];
+    room_[to] = crowds[crowd].RoomOf(at);
+    animal_[to] = animal;
+    low_[to] = animals[k].lowest;
+  }
+}
+
+template <typename T>
+void CloseTable<T>::AppendPairs(std::uint32_t first, std::vector<ClosePair<T>>* pairs) const {
+  const std::size_t before = pairs->size();
+  // Two of the eight cells may share a bucket.
+  const auto has = [&](std::uint32_t j) {
+    return std::any_of(pairs->begin() + static_cast<std::ptrdiff_t>(before), pairs->end(),
+                       [j](const ClosePair<T>& pair) { return pair.second == j; });
+  };
+  for (const std::uint32_t across : {0U, across_y_, across_z_, across_y_ + across_z_}) {
+    const std::uint32_t bucket = (low_[first] + across) & mask_;
+    for (std::uint32_t j = std::max(start_[bucket], first + 1); j < start_[bucket + 2]; ++j) {
+      const Vec3<T> way{x_[j] - x_[first], y_[j] - y_[first], z_[j] - z_[first]};
+      const T squared = way.x * way.x + way.y * way.y + way.z * way.z;
+      const T distance = room_[first] + room_[j];
+      if (squared < distance * distance && !has(j)) {
+        pairs->push_back({first, j, way, squared, distance});
+      }
+    }
+  }
+}
+
+template <typename T>
+void CloseTable<T>::FindPairs(ThreadPool* pool) {
+  const auto n = static_cast<std::int64_t>(animal_.size());
+  const auto chunks = static_cast<std::size_t>((n + kGrain - 1) / kGrain);
+  has_.resize(chunks);
+  pairs_.resize(chunks);
+  pool->For(0, n, kGrain, [&](std::int64_t first, std::int64_t last) {
+    const auto a = static_cast<std::uint32_t>(first), b = static_cast<std::uint32_t>(last);
+    std::vector<ClosePair<T>>& pairs = pairs_[static_cast<std::size_t>(first / kGrain)];
+    pairs.clear();
+    if constexpr (std::is_same_v<T, float>) {
+      std::vector<std::uint32_t>& has = has_[static_cast<std::size_t>(first / kGrain)];
+      has.resize(kGrain);
+      const CloseJob job{x_.data(),     y_.data(), z_.data(), room_.data(), low_.data(),
+                         start_.data(), across_y_, across_z_, mask_};
+      const std::uint32_t count = FastestSwarmKernel().close(job, a, b, has.data());
+      for (std::uint32_t k = 0; k < count; ++k) AppendPairs(has[k], &pairs);
+    } else {
+      for (std::uint32_t k = a; k < b; ++k) AppendPairs(k, &pairs);
+    }
+  });
+}
+
+template class CloseTable<float>;
+template class CloseTable<double>;
+
+}  // namespace flocklift
