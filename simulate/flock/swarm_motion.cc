@@ -123,7 +123,12 @@ class SwarmMotion final : public Motion<T> {
     out->Put(extra_);
   }
   void Load(StateReader* in) override {
-    for (GoalSpec& goal : goals_) in->Take(&goal.position);
+    bool moved = false;
+    for (GoalSpec& goal : goals_) {
+      const Vec3d before = goal.position;
+      in->Take(&goal.position);
+      moved |= !(goal.position == before);
+    }
     std::uint64_t size = 0;
     in->Take(&size);
     if (size != 0 && (!guide_ || size != guide_->grid().size())) {
@@ -132,7 +137,7 @@ class SwarmMotion final : public Motion<T> {
     extra_.resize(size);
     in->Take(&extra_);
     if (!guide_) return;
-    guide_->SetGoals(goals_);
+    if (moved) guide_->SetGoals(goals_);
     if (!extra_.empty()) guide_->SetExtra(extra_);
   }
 
