@@ -64,9 +64,8 @@ void CloseTable<T>::AppendPairs(std::uint32_t first, std::vector<ClosePair<T>>* 
     return std::any_of(pairs->begin() + static_cast<std::ptrdiff_t>(before), pairs->end(),
                        [j](const ClosePair<T>& pair) { return pair.second == j; });
   };
-  for (const std::uint32_t across : {0U, across_y_, across_z_, across_y_ + across_z_}) {
-    const std::uint32_t bucket = (low_[first] + across) & mask_;
-    for (std::uint32_t j = std::max(start_[bucket], first + 1); j < start_[bucket + 2]; ++j) {
+  const auto look_through = [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t j = std::max(begin, first + 1); j < end; ++j) {
       const Vec3<T> way{x_[j] - x_[first], y_[j] - y_[first], z_[j] - z_[first]};
       const T squared = way.x * way.x + way.y * way.y + way.z * way.z;
       const T distance = room_[first] + room_[j];
@@ -74,6 +73,11 @@ void CloseTable<T>::AppendPairs(std::uint32_t first, std::vector<ClosePair<T>>* 
         pairs->push_back({first, j, way, squared, distance});
       }
     }
+  };
+  for (const std::uint32_t across : {0U, across_y_, across_z_, across_y_ + across_z_}) {
+    const std::uint32_t bucket = (low_[first] + across) & mask_;
+    look_through(start_[bucket], start_[bucket + 2]);
+    if (bucket == mask_) look_through(start_[0], start_[1]);
   }
 }
 

@@ -60,15 +60,43 @@ void SumOneOfEight(const Rules& rules, const PairTask<T>& task, std::size_t k, c
   task.neighbours[k] = eight[0].Neighbours();
 }
 
+// Likewise in eight sums, by rules that count their neighbours first.
+template <typename T, typename Rules, typename Visit>
+void SumCounted(const Rules& rules, const PairTask<T>& task, std::size_t k, const Visit& visit) {
+  const Bodies<T>& s = task.bodies;
+  const Vec3<T> x = s.Position(k), v = s.Velocity(k);
+  typename Rules::ByTerm counts;
+  visit([&](std::uint32_t j) { rules.Count(s.Position(j) - x, &counts); });
+  const typename Rules::ByTerm gains = rules.Gains(counts);
+  Vec3<T> eight[8] = {};
+  std::size_t n = 0;
+  visit([&](std::uint32_t j) {
+    const Vec3<T> dx = s.Position(j) - x;
+    if (rules.Felt(dx)) eight[n++ % 8] += rules.Pair(gains, dx, s.Velocity(j) - v);
+  });
+  for (std::size_t half = 4; half > 0; half /= 2) {
+    for (std::size_t m = 0; m < half; ++m) eight[m] += eight[m + half];
+  }
+  task.ax[k] = eight[0].x;
+  task.ay[k] = eight[0].y;
+  task.az[k] = eight[0].z;
+  task.neighbours[k] = rules.Neighbours(counts);
+}
+
 template <typename T, typename Rules>
 void SumLists(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
   pool->For(0, static_cast<std::int64_t>(task.bodies.size()), kPairGrain,
             [&](std::int64_t first, std::int64_t last) {
               for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last);
                    ++k) {
-                SumOne(rules, task, k, [&](const auto& neighbour) {
+                const auto visit = [&](const auto& neighbour) {
                   for (const std::uint32_t j : (*task.nearest)[k]) neighbour(j);
-                });
+                };
+                if constexpr (requires { typename Rules::ByTerm; }) {
+                  SumCounted(rules, task, k, visit);
+                } else {
+                  SumOne(rules, task, k, visit);
+                }
               }
             });
 }
@@ -91,13 +119,17 @@ void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
             }
           });
         };
-        if constexpr (requires { Rules::ByAnimal(true); }) {
-          if (Rules::ByAnimal(task.sample != nullptr)) {
-            SumOneOfEight(rules, task, k, visit);
-            continue;
+        if constexpr (requires { typename Rules::ByTerm; }) {
+          SumCounted(rules, task, k, visit);
+        } else {
+          if constexpr (requires { Rules::ByAnimal(true); }) {
+            if (Rules::ByAnimal(task.sample != nullptr)) {
+              SumOneOfEight(rules, task, k, visit);
+              continue;
+            }
           }
+          SumOne(rules, task, k, visit);
         }
-        SumOne(rules, task, k, visit);
       }
     }
   });

@@ -42,8 +42,9 @@ inline ShapePairNumbers MakeShapePairNumbers(const ShapeParameters& p, double sp
 // How far a neighbour can be felt [m]: the Manhattan distance is never less than the Euclidean.
 inline double Reach(const ShapePairNumbers& n) { return std::max({n.r_rep, n.r_att, n.reach}); }
 
-// A pair is evaluated once for all four terms: with hard edges what a term says either counts or
-// does not, and the zones share one direction. Sums are those of the terms by themselves.
+// The four terms together. Each is a mean over those that it counts; so neighbours are counted
+// first, and then every pair is one sum of its directions, each with its term's gain over its
+// count. Sums are those of the terms by themselves but for round-off.
 template <typename T>
 struct ShapePairs {
   // Kernels sum animal by animal (shape_kernel_inl.h).
@@ -54,71 +55,58 @@ struct ShapePairs {
   T zone_reach;  // of the widest zone [m]
 
   using Mask = std::remove_cvref_t<decltype(std::declval<T>() < std::declval<T>())>;
-  // Which terms count, and what they say: zeros where they do not.
-  struct Shares {
+  // Which terms count a neighbour.
+  struct Terms {
     Mask repels, aligns, attracts, spreads;
-    Vec3<T> repulsion, alignment, attraction, spread;
   };
-  struct Sums {
-    Weighted<T> repulsion, alignment, attraction, spread;
-
-    Sums& operator+=(const Shares& s) {
-      Take(s.repulsion, s.repels, &repulsion);
-      Take(s.alignment, s.aligns, &alignment);
-      Take(s.attraction, s.attracts, &attraction);
-      Take(s.spread, s.spreads, &spread);
-      return *this;
-    }
-    Sums& operator+=(const Sums& b) {
-      repulsion += b.repulsion;
-      alignment += b.alignment;
-      attraction += b.attraction;
-      spread += b.spread;
-      return *this;
-    }
-    T Neighbours() const { return repulsion.weight + alignment.weight + attraction.weight; }
-
-   private:
-    static void Take(const Vec3<T>& value, const Mask& counts, Weighted<T>* sum) {
-      sum->value += value;
-      sum->weight += Where(counts, T(1.0));
-    }
+  // By term: how many neighbours count, and the gain over that.
+  struct ByTerm {
+    T repel = T(0.0), align = T(0.0), attract = T(0.0), spread = T(0.0);
   };
 
-  // Whether any term counts. By Manhattan distance the spreading reaches less far than by Euclid's.
-  Mask Felt(const Vec3<T>& dx) const {
-    using std::abs;
-    const T manhattan = abs(dx.x) + abs(dx.y) + abs(dx.z);
-    return (Dot(dx, dx) <= zone_reach * zone_reach) | (manhattan < spread.reach);
-  }
-
-  const ShapePairs& For(const Vec3<T>& /*v*/) const { return *this; }
-  Shares Pair(const Vec3<T>& dx, const Vec3<T>& dv) const {
-    const T squared = Dot(dx, dx);
+  Terms TermsOf(const Vec3<T>& dx) const {
+    const T squared = Dot(dx, dx), manhattan = Manhattan(dx);
     const Mask repels = squared < repulsion.r_rep * repulsion.r_rep;
     const Mask within = squared < repulsion.r_ali * repulsion.r_ali;
     const Mask felt = squared <= repulsion.r_att * repulsion.r_att;
-    const Mask aligns(within ^ repels), attracts(felt ^ within);
-    const Vec3<T> direction = ZoneDirection(repulsion, dx, dv);
-    const Share<T> push = ShapeForce::Pair(spread, dx, dv);
-    const Mask spreads = push.weight > T(0.0);
-    return {repels,
-            aligns,
-            attracts,
-            spreads,
-            Kept(repels, direction),
-            Kept(aligns, direction),
-            Kept(attracts, direction),
-            Kept(spreads, push.value)};
+    return {repels, Mask(within ^ repels), Mask(felt ^ within), manhattan < spread.reach};
   }
-  Vec3<T> Finish(const Sums& sums) const {
-    return repulsion.gain * Mean(sums.repulsion) + alignment.gain * Mean(sums.alignment) +
-           attraction.gain * Mean(sums.attraction) + ShapeForce::Finish(spread, sums.spread);
+  // Whether any term counts. By Manhattan distance the spreading reaches less far than by Euclid's.
+  Mask Felt(const Vec3<T>& dx) const {
+    return (Dot(dx, dx) <= zone_reach * zone_reach) | (Manhattan(dx) < spread.reach);
+  }
+
+  void Count(const Vec3<T>& dx, ByTerm* counts) const {
+    const Terms terms = TermsOf(dx);
+    counts->repel += Where(terms.repels, T(1.0));
+    counts->align += Where(terms.aligns, T(1.0));
+    counts->attract += Where(terms.attracts, T(1.0));
+    counts->spread += Where(terms.spreads, T(1.0));
+  }
+  ByTerm Gains(const ByTerm& counts) const {
+    const auto share = [](const T& gain, const T& count) -> T {
+      return Where(count > T(0.0), T(gain / select(count > T(0.0), count, T(1.0))));
+    };
+    return {share(repulsion.gain, counts.repel), share(alignment.gain, counts.align),
+            share(attraction.gain, counts.attract), share(spread.gain, counts.spread)};
+  }
+  static T Neighbours(const ByTerm& counts) { return counts.repel + counts.align + counts.attract; }
+
+  // What a neighbour adds to the acceleration.
+  Vec3<T> Pair(const ByTerm& gains, const Vec3<T>& dx, const Vec3<T>& dv) const {
+    const Terms terms = TermsOf(dx);
+    const T share = Manhattan(dx) * (T(1.0) / spread.sigma);
+    const T push = gains.spread * ShapeForce::Fall(T(T(0.5) * share * share));
+    const T zone = Where(terms.attracts, gains.attract) - Where(terms.repels, gains.repel);
+    const T along = (zone - Where(terms.spreads, push)) * InverseLength(Dot(dx, dx));
+    const T beside = Where(terms.aligns, gains.align) * InverseLength(Dot(dv, dv));
+    return along * dx + beside * dv;
   }
 
  private:
-  static Vec3<T> Kept(const Mask& mask, const Vec3<T>& v) {
-    return {Where(mask, v.x), Where(mask, v.y), Where(mask, v.z)};
+  static T Manhattan(const Vec3<T>& dx) {
+    using std::abs;
+    return abs(dx.x) + abs(dx.y) + abs(dx.z);
   }
 };
 

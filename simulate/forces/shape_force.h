@@ -33,12 +33,10 @@ struct ShapeForce {
   static T Fall(const T& y) {
     const T clamped = select(y < T(16.0), y, T(16.0));
     const T u = T(-1.0 / 32) * clamped;
-    T sum = T(1.0) + u * T(1.0 / 6);
-    sum = T(1.0) + u * T(1.0 / 5) * sum;
-    sum = T(1.0) + u * T(1.0 / 4) * sum;
-    sum = T(1.0) + u * T(1.0 / 3) * sum;
-    sum = T(1.0) + u * T(1.0 / 2) * sum;
-    sum = T(1.0) + u * sum;
+    const T v = u * u;  // three short chains instead of a long one
+    const T low = T(1.0) + u, middle = T(1.0 / 2) + T(1.0 / 6) * u,
+            high = T(1.0 / 24) + T(1.0 / 120) * u;
+    T sum = low + v * (middle + v * (high + T(1.0 / 720) * v));
     for (int k = 0; k < 5; ++k) sum = sum * sum;
     return sum;
   }

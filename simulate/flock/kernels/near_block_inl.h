@@ -36,14 +36,11 @@ class NearBlock {
   // Where they are in the job's arrays; of 3 columns.
   const std::uint32_t* numbers() const { return numbers_; }
 
-  // Calls fn() while animal a of the tile is nowhere near, so that it is no neighbour of itself.
-  template <typename Function>
-  void Without(std::uint32_t a, const Function& fn) {
-    float* const x = columns_[0] + self_[a];
-    const float kept = *x;
-    *x = __builtin_nanf("");
-    fn();
-    *x = kept;
+  // All lanes of the pack of candidates from number q on but that of animal a of the tile, which is
+  // no neighbour of itself.
+  std::uint64_t Others(std::uint32_t a, std::size_t q) const {
+    const std::size_t lane = self_[a] - q;
+    return ~(std::uint64_t{lane < kLanes ? 1U : 0U} << (lane % kLanes));
   }
 
   // Takes in everybody around a tile who is felt, felt(dx), at the nearest point of the tile's box
@@ -96,6 +93,7 @@ class NearBlock {
   void AppendNear(const PairJob& job, std::uint32_t first, std::uint32_t last, const Interval* box,
                   const Felt& felt, const Flush& flush) {
     const float *const px = job.x, *const py = job.y, *const pz = job.z;
+    const float *const pvx = job.vx, *const pvy = job.vy, *const pvz = job.vz;
     std::size_t count = count_;
     for (std::uint32_t j = first; j < last; j += kLanes) {
       if (count + kLanes > kRoom) {
@@ -109,16 +107,13 @@ class NearBlock {
       const std::uint32_t left = last - j;
       const std::uint64_t all = (std::uint64_t{1} << (left < 63 ? left : 63)) - 1;  // no branch
       const std::uint64_t mask = LaneMask(felt(dx)) & all;
-      if constexpr (kColumns == 6) {
-        if (mask == 0) continue;
-      }
       StoreSetLanes(mask, x, columns_[0] + count);
       StoreSetLanes(mask, y, columns_[1] + count);
       StoreSetLanes(mask, z, columns_[2] + count);
       if constexpr (kColumns == 6) {
-        StoreSetLanes(mask, Pack::load_unaligned(job.vx + j), columns_[3] + count);
-        StoreSetLanes(mask, Pack::load_unaligned(job.vy + j), columns_[4] + count);
-        StoreSetLanes(mask, Pack::load_unaligned(job.vz + j), columns_[5] + count);
+        StoreSetLanes(mask, Pack::load_unaligned(pvx + j), columns_[3] + count);
+        StoreSetLanes(mask, Pack::load_unaligned(pvy + j), columns_[4] + count);
+        StoreSetLanes(mask, Pack::load_unaligned(pvz + j), columns_[5] + count);
         count += static_cast<std::size_t>(__builtin_popcountll(mask));
       } else {
         count += AppendSetBits(mask, j, numbers_ + count);

@@ -89,7 +89,7 @@ using NearKernel = std::uint32_t (*)(const NearJob& job, std::uint32_t first, st
 
 // Animals sorted by buckets (simulate/flock/close_table.h): which of them are nearer to somebody
 // behind them than the sum of their rooms. Each is tested against those behind it in two buckets
-// from each of (lowest + {0, across_y} + {0, across_z}) & mask on.
+// from each of (lowest + {0, across_y} + {0, across_z}) & mask on; the first follows the last.
 struct CloseJob {
   const float *x, *y, *z, *room;  // [m], sorted, 16 more may be read
   const std::uint32_t* lowest;    // of each

@@ -240,6 +240,11 @@ std::uint32_t FindClose(const CloseJob& job, std::uint32_t first, std::uint32_t 
       const auto length = static_cast<std::int32_t>(end[row] - begin[row]);
       longest = longest > length ? longest : length;
       any = any | too_near(k, begin[row], end[row]);
+      if (bucket == job.mask) {  // the second is the first of all
+        for (std::uint32_t a = k + 1; a < job.start[1]; a += kLanes) {
+          any = any | too_near(k, a, job.start[1]);
+        }
+      }
     }
     for (auto done = kLanes; static_cast<std::int32_t>(done) < longest; done += kLanes) {
       for (int row = 0; row < 4; ++row) {

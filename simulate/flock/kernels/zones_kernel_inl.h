@@ -92,24 +92,23 @@ class ZonesTile {
     std::size_t far = far_begin + animal.left_far, close = close_begin + animal.left_close;
     const std::size_t before = far;
     std::uint64_t base = 0;  // in every byte the number of the pack's first
-    block_.Without(a, [&] {
-      for (std::size_t q = 0; q < count; q += kLanes) {
-        const Vec3<Pack> dx{Pack::load_aligned(from + q) - x,
-                            Pack::load_aligned(from + kColumn + q) - y,
-                            Pack::load_aligned(from + 2 * kColumn + q) - z};
-        const Pack squared = Dot(dx, dx);
-        const std::uint64_t closes = LaneMask(squared < close_squared);
-        const std::uint64_t attracts = LaneMask(squared <= far_squared) & ~closes;
-        const std::uint64_t numbers = kSetBits.of[closes] + base;
-        base += kLanes * 0x0101010101010101U;
-        std::memcpy(places_ + close, &numbers, sizeof(numbers));
-        close += static_cast<std::size_t>(__builtin_popcountll(closes));
-        StoreSetLanes(attracts, dx.x, to + far);
-        StoreSetLanes(attracts, dx.y, to + kListRoom + far);
-        StoreSetLanes(attracts, dx.z, to + 2 * kListRoom + far);
-        far += static_cast<std::size_t>(__builtin_popcountll(attracts));
-      }
-    });
+    for (std::size_t q = 0; q < count; q += kLanes) {
+      const Vec3<Pack> dx{Pack::load_aligned(from + q) - x,
+                          Pack::load_aligned(from + kColumn + q) - y,
+                          Pack::load_aligned(from + 2 * kColumn + q) - z};
+      const Pack squared = Dot(dx, dx);
+      const std::uint64_t others = block_.Others(a, q);
+      const std::uint64_t closes = LaneMask(squared < close_squared) & others;
+      const std::uint64_t attracts = LaneMask(squared <= far_squared) & others & ~closes;
+      const std::uint64_t numbers = kSetBits.of[closes] + base;
+      base += kLanes * 0x0101010101010101U;
+      std::memcpy(places_ + close, &numbers, sizeof(numbers));
+      close += static_cast<std::size_t>(__builtin_popcountll(closes));
+      StoreSetLanes(attracts, dx.x, to + far);
+      StoreSetLanes(attracts, dx.y, to + kListRoom + far);
+      StoreSetLanes(attracts, dx.z, to + 2 * kListRoom + far);
+      far += static_cast<std::size_t>(__builtin_popcountll(attracts));
+    }
     animal.counts[2] += static_cast<std::uint32_t>(far - before);
     animal.far = far_begin;
     animal.far_end = static_cast<std::uint32_t>(far);

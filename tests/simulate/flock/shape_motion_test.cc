@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "simulate/core/rng.h"
@@ -103,12 +104,17 @@ TEST(ShapeMotion, PairsAreTheirTerms) {
   EXPECT_EQ(n.r_att, 2);
   EXPECT_EQ(Reach(n), 2);
   const ShapePairs<double> pairs = MakeShapePairs<double>(n);
-  typename ShapePairs<double>::Sums sums;
-  sums += pairs.Pair({0.1, 0, 0}, {0, 0, 1});  // repulsion, and the shape force
-  sums += pairs.Pair({0, 1.0, 0}, {0, 0, 2});  // alignment
-  sums += pairs.Pair({0, 0, 3.0}, {0, 1, 0});  // too far
-  const Vec3d a = pairs.Finish(sums);
-  EXPECT_EQ(sums.Neighbours(), 2);
+  const std::pair<Vec3d, Vec3d> others[] = {{{0.1, 0, 0}, {0, 0, 1}},   // repels and spreads
+                                            {{0, 1.0, 0}, {0, 0, 2}},   // aligns
+                                            {{0, 0, 3.0}, {0, 1, 0}}};  // too far
+  ShapePairs<double>::ByTerm counts;
+  for (const auto& [dx, dv] : others) pairs.Count(dx, &counts);
+  EXPECT_EQ(pairs.Neighbours(counts), 2);
+  EXPECT_EQ(counts.spread, 1);
+  const ShapePairs<double>::ByTerm gains = pairs.Gains(counts);
+  EXPECT_EQ(gains.attract, 0);  // nobody is
+  Vec3d a;
+  for (const auto& [dx, dv] : others) a += pairs.Pair(gains, dx, dv);
   const double spread = 0.3 * ShapeForce::Fall(0.5 * std::pow(0.1 / 0.27, 2));
   EXPECT_NEAR(a.x, -0.7 * 0.2 - spread, 1e-6);
   EXPECT_NEAR(a.y, 0, 1e-12);
