@@ -39,6 +39,8 @@ class ObservedFlock {
   double dt() const { return dt_; }
   FrameSpan Life(int animal) const;  // its first and last frame; {0, -1} when it has none
   int Count(int frame) const { return static_cast<int>(Alive(frame).size()); }
+  // Animals whose tracks have the frame, increasing.
+  const std::vector<int>& Alive(int frame) const;
 
   // Is there a position (Has), and was it in the file, not bridged (Measured)?
   bool Has(int animal, int frame) const { return Flag(animal, frame) != 0; }
@@ -62,7 +64,6 @@ class ObservedFlock {
   };
   std::uint8_t Flag(int animal, int frame) const;
   Vec3d Slope(int animal, int frame) const;        // [m/frame]; 0 without a neighbouring frame
-  const std::vector<int>& Alive(int frame) const;  // animals whose tracks span the frame
 
   double dt_;
   FrameSpan span_;

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Interaction kernels without a form, from positions alone: functions of distance
+//   order 1   dx_i = sum_j phi_E(r_ij) (x_j - x_i) dt + sqrt(2 D) dW       (opinions, gradients)
+//   order 2   dv_i = sum_j [phi_E(r_ij) (x_j - x_i) + phi_A(r_ij) (v_j - v_i)] dt + sqrt(2 D) dW
+// as splines, with pointwise bands. phi_E > 0 attracts, < 0 repels; phi_A > 0 aligns. Least squares
+// over all runs at once with the weights that position noise and D, both unknown, call for
+// (kernel_modes.h), smoothness by marginal likelihood, its own in each part of the distances
+// (kernel_evidence.h). Breaks lie where pairs are, where distances are, and, in a second round,
+// where the first round's kernel bends.
+//
+// Position noise is in the features too. In the offsets it blurs a kernel by sqrt(2) of its sd, and
+// no part of a spline is made shorter than 4 of these. In the velocities, which an alignment
+// multiplies, it is large: what it does to the moments is found by doing it once more, with the
+// variance found and either sign, and taken out (simulation extrapolation, Cook and Stefanski 1994;
+// of the moments, not of the estimate). Where the pairs' density rho is nearly 0, a spline on its
+// own would be uncertain, or the band is wider than the kernel is high, the kernel is flagged as
+// not known.
+//
+// The setting is that of Lu, Zhong, Tang and Maggioni, "Nonparametric inference of interaction laws
+// in systems of agents from trajectory data", PNAS 116 (2019), who divide the sum by the number of
+// animals, take the velocities as seen or as differences, and give no bands.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_FIT_KERNEL_FIT_H_
+#define FLOCKLIFT_RECONSTRUCT_FIT_KERNEL_FIT_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reconstruct/fit/spline_basis.h"
+#include "simulate/core/options.h"
+#include "simulate/core/progress.h"
+#include "simulate/core/trajectory.h"
+
+namespace flocklift {
+
+struct KernelFitOptions {
+  int order = 2;        // of the equation of motion
+  int intervals = 80;   // of each kernel's spline
+  int degree = 3;       // of the spline: 0 steps, 1 chain, 3 cubic
+  double reach = 0;     // farther pairs do not interact [m]; 0: all pairs do
+  int segment = 100;    // longest run of frames that is taken at once
+  int bridged_gap = 5;  // missing frames that neighbours are interpolated over; not described here:
+                        // FitOptions describes it
+};
+
+template <typename Visitor>
+void Describe(Visitor& visit, KernelFitOptions& o) {
+  visit("order", o.order, {.low = 1, .high = 2}, "",
+        "what the kernels drive: 1 velocities (opinions, gradients), 2 accelerations");
+  visit("intervals", o.intervals, {.low = 4, .high = 400}, "", "pieces of each kernel's spline");
+  visit("degree", o.degree, {.low = 0, .high = 3}, "", "of the spline: 0 steps .. 3 cubic");
+  visit("reach", o.reach, {.low = 0}, "m", "farther pairs do not interact; 0: all pairs do");
+  visit("segment", o.segment, {.low = 8, .high = 400}, "frames",
+        "longest run of an animal's frames that is taken at once");
+}
+
+struct KernelPoint {
+  double distance = 0;  // [m]
+  double value = 0;     // phi
+  double sd = 0;        // pointwise; value +- 1.96 sd is the band
+  double density = 0;   // rho of pairs [1/m]
+  bool known = false;   // do the data say anything?
+};
+
+struct FittedKernel {
+  std::string name;  // attraction [1/s^order] or alignment [1/s]
+  SplineBasis basis;
+  std::vector<double> coefficients;
+  std::vector<KernelPoint> points;  // by distance, denser where the breaks are
+
+  double Value(double distance) const { return basis.Value(coefficients, distance); }
+  // sd of Value at a distance.
+  double Sd(double distance) const;
+  std::vector<double> covariance;  // of the coefficients, row-major
+};
+
+enum class KernelFitStatus {
+  kOk,
+  kTooFewAnimals,  // no two animals at once, or all at one distance
+  kTooFewFrames,   // no run of frames is long enough
+  kTooFewRows,     // fewer equations than coefficients
+};
+std::string StatusText(KernelFitStatus status);
+
+struct KernelFit {
+  KernelFitStatus status = KernelFitStatus::kOk;
+  std::vector<FittedKernel> kernels;
+  std::int64_t flocks = 0, animals = 0, rows = 0;
+  int dimensions = 3;         // coordinates that change
+  double position_noise = 0;  // sd of each coordinate [m]
+  double diffusion = 0;       // D [m^2/s, or m^2/s^3]
+  double explained = 0;       // share of what is not noise, weighted
+  double effective = 0;       // parameters that the data decide
+  bool converged = false;
+  std::vector<std::string> warnings;
+
+  bool IsUsable() const { return status == KernelFitStatus::kOk; }
+};
+
+// `flocks`: one or more runs of the same kind of flock, at the same fps. Deterministic in all but
+// `threads`. Throws std::invalid_argument for options out of range.
+KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajectories>& flocks,
+                     double fps, std::uint64_t seed, int threads, const Progress& progress = {});
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_RECONSTRUCT_FIT_KERNEL_FIT_H_
