@@ -113,8 +113,8 @@ TEST(KernelFit, FindsKernelsAndNoise) {
   }
 }
 
-// Least squares with velocities from noisy positions finds too little alignment; so would this,
-// were the part of the noise not taken out of the moments.
+// Velocities have felt the noise that drives them: taken as they come, with position noise besides,
+// the alignment would come out as a third of what it is.
 TEST(KernelFit, VelocityNoiseDoesNotHideAlignment) {
   const KernelFlock flock{.order = 2,
                           .animals = 8,
