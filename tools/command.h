@@ -92,6 +92,16 @@ struct JsonWriter {
   }
 };
 
+struct JsonTaker {
+  const nlohmann::ordered_json& json;
+
+  template <typename T>
+  void operator()(std::string_view name, T& value, Range, std::string_view, std::string_view) {
+    const auto found = json.find(std::string(name));
+    if (found != json.end()) found->get_to(value);
+  }
+};
+
 }  // namespace internal
 
 // One flag per field that Describe names, in the help's section `group`. `options` must outlive
@@ -111,6 +121,14 @@ nlohmann::ordered_json OptionsAsJson(const Options& options) {
   Options copy = options;
   Describe(writer, copy);
   return json;
+}
+
+// What OptionsAsJson wrote; fields that the object lacks stay. Throws nlohmann::json::exception for
+// a value of another kind.
+template <typename Options>
+void TakeOptions(const nlohmann::ordered_json& json, Options* options) {
+  internal::JsonTaker taker{json};
+  Describe(taker, *options);
 }
 
 // "MEAN[,SD]" as of --speed and --wingspan. Throws CLI::ValidationError.

@@ -62,7 +62,7 @@ void RunDemo(const DemoCommand& command, const CommonOptions& common) {
   cobyla.method = "cobyla";
   RunReconstruct(cobyla, baseline);
 
-  RunEvaluate({.round_trip = common.out}, common);
+  RunEvaluate({.round_trip = common.out, .shares = false}, common);
   // Once more, now that the scores are there to be shown.
   RunReport({.folder = result.out, .truth = truth.out}, result);
 }

@@ -12,6 +12,9 @@
 
 #include "simulate/core/atomic_file.h"
 #include "simulate/core/check.h"
+#include "tools/fit_command.h"
+#include "tools/round_trip_chain.h"
+#include "tools/round_trip_table.h"
 #include "tools/stage.h"
 
 namespace flocklift {
@@ -86,8 +89,42 @@ std::vector<Job> JobsOfRoundTrip(const EvaluateCommand& command) {
   return jobs;
 }
 
+// What each stage adds to the error of the flock that comes out; nothing where a stage is missing.
+std::optional<Json> ShareOut(const EvaluateCommand& command, const CommonOptions& common,
+                             Stage* stage) {
+  try {
+    const RoundTripChain chain = RunRoundTripChain(command.round_trip, common);
+    for (const std::string& line : chain.missing) stage->Warn(line);
+    if (chain.legs.empty()) return std::nullopt;
+    for (const fs::path& input : chain.inputs) stage->AddInput(input);
+    stage->BeginPhase("round trip");
+    const RoundTripScores scores = ScoreRoundTrip(
+        command.shares_of, chain.replay, chain.camera, chain.truth, chain.legs, chain.fps,
+        common.seed, common.ThreadCount(), MakeFilmAgain(chain, command.round_trip, common));
+    if (scores.IsUsable()) return RoundTripAsJson(scores);
+    stage->Warn("no animal is in the picture at both ends of a replay: give a shorter --lead");
+  } catch (const CannotFit& reason) {
+    stage->Warn(std::string("no shares of the stages: ") + reason.what());
+  }
+  return std::nullopt;
+}
+
+void PrintRoundTrip(const Json& figures) {
+  fmt::print(
+      "round trip: {:.3f} m and {:.1f} px after {:g} s (straight on: {:.3f} m, {:.1f} px), {} "
+      "animals from {} starts\n{}",
+      figures.at("error_m").get<double>(), figures.at("image_error_px").get<double>(),
+      figures.at("lead_s").get<double>(), figures.at("straight_on_error_m").get<double>(),
+      figures.at("straight_on_image_error_px").get<double>(), figures.at("animals").get<int>(),
+      figures.at("starts").get<int>(), RoundTripTable(figures));
+}
+
 void PrintTable(const Json& scores) {
   for (const auto& [kind, figures] : scores.items()) {
+    if (kind == "round_trip") {
+      PrintRoundTrip(figures);
+      continue;
+    }
     fmt::print("{}\n", kind);
     for (const auto& [name, value] : figures.items()) {
       if (value.is_number_float()) {
@@ -119,6 +156,8 @@ void RunEvaluate(const EvaluateCommand& command, const CommonOptions& common_giv
                      {"match_gate_px", options.match.gate_px},
                      {"truth_frame", options.truth_in_camera_frame ? "camera" : "world"},
                      {"result_frame", options.result_in_camera_frame ? "camera" : "world"}};
+  const bool with_shares = round_trip && command.shares && command.kind == "auto";
+  if (with_shares) stage.options()["shares"] = OptionsAsJson(command.shares_of);
   if (options.scale_sd) stage.options()["scale_sd"] = *options.scale_sd;
   for (const Job& job : jobs) {
     stage.AddInput(job.truth);
@@ -146,6 +185,10 @@ void RunEvaluate(const EvaluateCommand& command, const CommonOptions& common_giv
   }
   stage.EndPhase();
   for (const std::string& warning : warnings) stage.Warn(warning);
+  if (with_shares) {
+    if (auto shares = ShareOut(command, common, &stage)) scores["round_trip"] = std::move(*shares);
+    stage.EndPhase();
+  }
   WriteTextFile(common.out / "scores.json", scores.dump(2) + "\n");
   stage.AddOutput("scores.json");
   stage.figures() = scores;
@@ -162,7 +205,7 @@ void AddEvaluateCommand(CLI::App& app) {
       "  flocklift evaluate --truth truth/trajectories.csv --result trajectories.csv \\\n"
       "      --camera camera.yaml --match image\n"
       "  flocklift evaluate --round-trip demo",
-      {}, &RunEvaluate, &command);
+      {.seed = true}, &RunEvaluate, &command);
   sub->get_option("--out")->default_val("")->description(
       "folder for scores.json; default: the folder of the round trip, or the current one");
   auto* truth = sub->add_option("--truth", command->truth, "the truth: tracks or trajectories");
@@ -170,12 +213,18 @@ void AddEvaluateCommand(CLI::App& app) {
   truth->needs(result);
   result->needs(truth);
   sub->add_option("--round-trip", command->round_trip,
-                  "a folder with truth/ and result/, as `demo` leaves it")
+                  "a folder with truth/ and result/, as `demo` leaves it; also shares the error of "
+                  "the replayed flock out among the stages, by running the chain again from each "
+                  "on with the truth before it")
       ->excludes(truth)
       ->excludes(result);
   sub->add_option("--kind", command->kind, "what the files hold; auto: by their content")
       ->check(CLI::IsMember({"auto", "tracks", "trajectories"}))
       ->capture_default_str();
+
+  sub->add_flag("--shares,!--no-shares", command->shares,
+                "share the error out among the stages of a round trip");
+  AddFlags(*sub, command->shares_of, "Round trip");
 
   const std::string tracks = "Tracks";
   AddFlags(*sub, command->evaluation.tracks, tracks);

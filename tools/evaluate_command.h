@@ -12,6 +12,7 @@
 
 #include "tools/command.h"
 #include "tools/evaluate_files.h"
+#include "tools/round_trip_scores.h"
 
 namespace flocklift {
 
@@ -22,9 +23,12 @@ struct EvaluateCommand {
   std::string kind = "auto";          // tracks, trajectories
   std::string match = "auto";         // id, image; auto: id for files, image for a round trip
   EvaluationOptions evaluation = {};
+  bool shares = true;  // of the stages of a round trip
+  RoundTripOptions shares_of = {};
 };
 
-// scores.json: {"tracks": {figure: value ..}, "trajectories": {..}}, what there is of the two.
+// scores.json: {"tracks": {figure: value ..}, "trajectories": {..}, "round_trip": {..}}, what there
+// is of the three.
 // An empty `common.out` means the folder of the round trip, or the current one.
 void RunEvaluate(const EvaluateCommand& command, const CommonOptions& common);
 

@@ -14,7 +14,6 @@
 
 #include "reconstruct/metrics/flock_statistics.h"
 #include "simulate/camera/camera_io.h"
-#include "simulate/core/animal.h"
 #include "simulate/core/check.h"
 #include "simulate/core/io.h"
 #include "simulate/core/parameters.h"
@@ -27,19 +26,6 @@
 
 namespace flocklift {
 namespace {
-
-// Bodies to film: alike but for the phase of their wingbeats.
-std::vector<Animal> AnimalsOf(const Trajectories& flock, double wingspan, std::uint64_t seed) {
-  std::vector<Animal> animals;
-  for (const Trajectory& trajectory : flock.trajectories) {
-    Rng rng(seed, static_cast<std::uint64_t>(trajectory.id));
-    animals.push_back({.id = trajectory.id,
-                       .wingspan = wingspan,
-                       .body_length = 0.5 * wingspan,
-                       .wingbeat_phase = rng.Uniform(0, 2 * std::numbers::pi)});
-  }
-  return animals;
-}
 
 // The film starts with the replay's first frame.
 Trajectories FromFrameOne(Trajectories flock, int start_frame) {
@@ -109,6 +95,18 @@ nlohmann::ordered_json StatisticsSeries(const Trajectories& reconstruction,
 
 }  // namespace
 
+std::vector<Animal> BodiesOf(const Trajectories& flock, double wingspan, std::uint64_t seed) {
+  std::vector<Animal> animals;
+  for (const Trajectory& trajectory : flock.trajectories) {
+    Rng rng(seed, static_cast<std::uint64_t>(trajectory.id));
+    animals.push_back({.id = trajectory.id,
+                       .wingspan = wingspan,
+                       .body_length = 0.5 * wingspan,
+                       .wingbeat_phase = rng.Uniform(0, 2 * std::numbers::pi)});
+  }
+  return animals;
+}
+
 void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
   Stage stage("replay", common);
   stage.options() = OptionsAsJson(command.replay);
@@ -157,7 +155,7 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
     const Scenery scenery = SceneObstacles(solid);
     FilmTrajectories(
         common.out / "video.mp4", FromFrameOne(result.replayed, result.start_frame),
-        AnimalsOf(result.replayed, command.wingspan, common.seed), *camera, {},
+        BodiesOf(result.replayed, command.wingspan, common.seed), *camera, {},
         {.fps = *fps, .seed = common.seed, .threads = common.ThreadCount(), .scenery = &scenery},
         film);
   }

@@ -7,11 +7,14 @@
 #define FLOCKLIFT_TOOLS_REPLAY_COMMAND_H_
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "reconstruct/replay/replay.h"
+#include "simulate/core/animal.h"
+#include "simulate/core/trajectory.h"
 #include "tools/command.h"
 
 namespace flocklift {
@@ -28,6 +31,9 @@ struct ReplayCommand {
 
 // Writes trajectories.csv of the replayed flock, and video.mp4 when a camera is given.
 void RunReplay(const ReplayCommand& command, const CommonOptions& common);
+
+// Bodies to film a replay with: alike but for the phase of their wingbeats.
+std::vector<Animal> BodiesOf(const Trajectories& flock, double wingspan, std::uint64_t seed);
 
 void AddReplayCommand(CLI::App& app);
 

@@ -260,6 +260,7 @@ ReplayResult Replay(const ReplayOptions& options, const Parameters& parameters,
     flight = std::make_unique<PulledFlight>(options, parameters, reconstruction, start,
                                             result.start_frame, fps);
   } else {
+    if (options.noiseless) start.swarm = Noiseless(start.swarm);
     flight = std::make_unique<FreeFlight>(world, start.swarm, options.substeps, threads);
     perturbed = std::make_unique<FreeFlight>(world, Perturbed(start.swarm, seed), options.substeps,
                                              threads);

@@ -28,6 +28,7 @@ struct ReplayOptions {
   int substeps = 4;
   double alpha = 1;
   double pull_time = 0.5;
+  bool noiseless = false;
 };
 
 template <typename Visitor>
@@ -43,6 +44,7 @@ void Describe(Visitor& visit, ReplayOptions& o) {
       "share of the model's force; the rest pulls to the reconstructed paths. 1: the model alone");
   visit("pull-time", o.pull_time, {.low = 0.05, .high = 1e3}, "s",
         "how soon that pull brings an animal back to its path");
+  visit("noiseless", o.noiseless, {}, "", "leave the model's noise out: fly what it expects");
 }
 
 // Root mean square distance from the reconstruction, over the animals that are in both.

@@ -55,6 +55,7 @@ std::string MakeReport(RunFolder run) {
   AddScaleSection(data, &page, &missing);
   AddParametersSection(data, &page, &missing);
   AddReplaySection(data, &page, &missing);
+  AddRoundTripSection(data, &page);
   AddTimingSection(data, &page, &missing);
   if (!missing.empty()) {
     page.BeginSection("missing", "Not shown");

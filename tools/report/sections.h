@@ -41,6 +41,7 @@ void AddResidualSection(const ReportData& data, Page* page, Missing* missing);
 void AddScaleSection(const ReportData& data, Page* page, Missing* missing);
 void AddParametersSection(const ReportData& data, Page* page, Missing* missing);
 void AddReplaySection(const ReportData& data, Page* page, Missing* missing);
+void AddRoundTripSection(const ReportData& data, Page* page);
 void AddTimingSection(const ReportData& data, Page* page, Missing* missing);
 void AddProvenanceSection(const ReportData& data, Page* page);
 

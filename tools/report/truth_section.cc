@@ -199,7 +199,7 @@ std::string CalibrationCurve(const std::vector<MatchedPoint>& points, double sca
 void AddScoresAsTold(const nlohmann::ordered_json& scores, Page* page) {
   page->BeginSection("truth", "Against the truth");
   for (const auto& [kind, figures] : scores.items()) {
-    if (!figures.is_object()) continue;
+    if (!figures.is_object() || kind == "round_trip") continue;  // which has its own section
     Table table{{kind, "score"}, {}};
     for (const auto& [name, value] : figures.items()) table.rows.push_back({name, JsonText(value)});
     page->AddTable(table, "As scores.json tells it; the truth itself is not in this folder.");

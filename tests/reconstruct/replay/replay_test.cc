@@ -210,6 +210,11 @@ TEST(Replay, WithoutItsNoiseAModelPartsLater) {
       Replay(options, By(scene.species[0].model), truth, kFps, 77, 1).divergence.back();
   EXPECT_LT(end.noiseless_rms, 0.9 * end.model_rms);
   EXPECT_GT(end.noiseless_rms, 0);
+  options.noiseless = true;
+  const Divergence expected =
+      Replay(options, By(scene.species[0].model), truth, kFps, 78, 1).divergence.back();
+  EXPECT_EQ(expected.model_rms, end.noiseless_rms);
+  options.noiseless = false;
   // A model that has none is its own.
   const Scene calm = OpenSkyScene();
   const Divergence same =

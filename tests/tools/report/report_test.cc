@@ -234,6 +234,21 @@ TEST_F(ReportTest, ScoresAreShownWithoutTheTruthToo) {
   EXPECT_FALSE(Contains(html, "<b>"));
 }
 
+TEST_F(ReportTest, TellsWhatEachStageAddsToTheError) {
+  FillFolder();
+  EXPECT_FALSE(Contains(Report(), "<section id=\"round-trip\">"));
+  WriteTextFile(run_ / "scores.json", R"({"round_trip": {"lead_s": 1, "starts": 4, "error_m": 2,
+      "straight_on_error_m": 3, "image_error_px": 50, "straight_on_image_error_px": 70, "stages": [
+      {"stage": "track", "error_m": 2, "share": 0.75, "share_sd": 0.1, "image_error_px": 50},
+      {"stage": "film again", "image_error_px": 0.5, "image_share": "<b>"}, 3, {"stage": 7}]}})");
+  const std::string html = Report();
+  ExpectWellFormed(html);
+  EXPECT_TRUE(Contains(html, "<section id=\"round-trip\">"));
+  EXPECT_TRUE(Contains(html, "<td>75.0 \xC2\xB1 10.0</td>"));
+  EXPECT_TRUE(Contains(html, "<td>film again</td>"));
+  EXPECT_FALSE(Contains(html, "<b>"));
+}
+
 TEST_F(ReportTest, HostileNamesStayText) {
   FillFolder();
   const fs::path evil = folder_ / "<img src=x onerror=alert(1)>";
