@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <istream>
+#include <sstream>
 #include <utility>
 
 #include "simulate/core/check.h"
@@ -192,34 +193,40 @@ class RowParser {
 }  // namespace
 
 TableContents ReadCsvTable(std::istream& stream, const std::string& name, const TableLayout& layout,
-                           const TakeRow& take) {
+                           const TakeRow& take, const CsvPart& part) {
   TableContents contents;
   contents.place = {.file = name, .is_text = true};
   contents.has.assign(static_cast<std::size_t>(layout.group_count) + 1, false);
-  LineReader reader(stream, name);
   RowParser parser(layout, &contents.place);
-  std::string_view line;
-  while (reader.Next(&line)) {
-    line = Trim(line);
-    if (line.empty()) continue;
-    if (reader.line() == 1 && line.starts_with("\x89HDF")) {
-      contents.place.Fail(0, "this is an HDF5 file", "give it a name that ends in .h5");
+  const auto read = [&](LineReader reader) {
+    std::string_view line;
+    while (reader.Next(&line)) {
+      line = Trim(line);
+      if (line.empty()) continue;
+      if (reader.line() == 1 && line.starts_with("\x89HDF")) {
+        contents.place.Fail(0, "this is an HDF5 file", "give it a name that ends in .h5");
+      }
+      if (line.front() == '#') {
+        ReadComment(line, contents.place, reader.line(), &contents.fps);
+        continue;
+      }
+      if (!parser.HasRoles()) {
+        FieldRoles roles = layout.has_header
+                               ? ReadHeader(line, layout, contents.place, reader.line())
+                               : RolesWithoutHeader(line, layout, contents.place, reader.line());
+        contents.has = GroupsPresent(roles, layout, contents.place, reader.line());
+        parser.SetRoles(std::move(roles));
+        if (layout.has_header) continue;
+      }
+      take(parser.Parse(line, reader.line()));
+      ++contents.row_count;
     }
-    if (line.front() == '#') {
-      ReadComment(line, contents.place, reader.line(), &contents.fps);
-      continue;
-    }
-    if (!parser.HasRoles()) {
-      FieldRoles roles = layout.has_header
-                             ? ReadHeader(line, layout, contents.place, reader.line())
-                             : RolesWithoutHeader(line, layout, contents.place, reader.line());
-      contents.has = GroupsPresent(roles, layout, contents.place, reader.line());
-      parser.SetRoles(std::move(roles));
-      if (layout.has_header) continue;
-    }
-    take(parser.Parse(line, reader.line()));
-    ++contents.row_count;
+  };
+  if (!part.head.empty()) {
+    std::istringstream head{std::string(part.head)};
+    read(LineReader(head, name));
   }
+  read(LineReader(stream, name, part.lines_before));
   if (layout.has_header && !parser.HasRoles()) {
     contents.place.Fail(0, "the file is empty",
                         fmt::format("the first line must name {}", layout.RequiredNames()));

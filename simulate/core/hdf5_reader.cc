@@ -166,23 +166,44 @@ std::vector<int> OpenColumns(const Hdf5Handle& group, const TableLayout& layout,
   return column_of;
 }
 
+Hdf5Handle OpenFile(const std::filesystem::path& path) {
+  OpenInput(path);  // tells a missing or unreadable file apart
+  const SilentHdf5 silent;
+  Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file.IsOpen()) {
+    TablePlace{.file = path.string(), .is_text = false}.Fail(
+        0, "this is not an HDF5 file", "names that end in .h5 must be; name a CSV otherwise");
+  }
+  return file;
+}
+
+Hdf5Handle OpenGroup(hid_t file, const TableLayout& layout, const TablePlace& place) {
+  const std::string name = "/" + layout.name;
+  Hdf5Handle group(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose);
+  if (!group.IsOpen()) {
+    place.Fail(0, fmt::format("there is no group {}", name),
+               fmt::format("put the datasets {} into it", layout.RequiredNames()));
+  }
+  return group;
+}
+
 }  // namespace
+
+bool Hdf5BearsThreads() {
+  hbool_t bears = 0;
+  return H5is_library_threadsafe(&bears) >= 0 && bears > 0;
+}
 
 bool IsHdf5Name(const std::filesystem::path& path) { return path.extension() == ".h5"; }
 
 TableContents ReadHdf5Table(std::int64_t open_file, const std::string& name,
-                            const TableLayout& layout, const TakeRow& take) {
+                            const TableLayout& layout, const TakeRow& take, const RowSpan& rows) {
   static_assert(std::is_same_v<hid_t, std::int64_t>);
   const SilentHdf5 silent;
   TableContents contents;
   contents.place = {.file = name, .is_text = false};
   const TablePlace& place = contents.place;
-  const std::string group_name = "/" + layout.name;
-  Hdf5Handle group(H5Gopen2(open_file, group_name.c_str(), H5P_DEFAULT), H5Gclose);
-  if (!group.IsOpen()) {
-    place.Fail(0, fmt::format("there is no group {}", group_name),
-               fmt::format("put the datasets {} into it", layout.RequiredNames()));
-  }
+  const Hdf5Handle group = OpenGroup(open_file, layout, place);
   contents.fps = ReadFps(group, place);
   std::vector<Column> columns;
   const std::vector<int> column_of = OpenColumns(group, layout, &contents, &columns);
@@ -190,8 +211,10 @@ TableContents ReadHdf5Table(std::int64_t open_file, const std::string& name,
   for (std::size_t k = 0; k < values.size(); ++k) values[k] = layout.columns[k].fallback;
   TableRow row{.place = &place, .values = values.data()};
   const hsize_t length = columns.front().length();
-  for (hsize_t first = 0; first < length; first += kRowsPerRead) {
-    const hsize_t count = std::min(kRowsPerRead, length - first);
+  const hsize_t begin = std::min<hsize_t>(rows.first, length);
+  const hsize_t end = begin + std::min<hsize_t>(rows.count, length - begin);
+  for (hsize_t first = begin; first < end; first += kRowsPerRead) {
+    const hsize_t count = std::min(kRowsPerRead, end - first);
     for (Column& column : columns) column.Read(first, count, place);
     for (std::size_t k = 0; k < count; ++k) {
       row.line = static_cast<long>(first + k) + 1;
@@ -210,15 +233,39 @@ TableContents ReadHdf5Table(std::int64_t open_file, const std::string& name,
 }
 
 TableContents ReadHdf5Table(const std::filesystem::path& path, const TableLayout& layout,
-                            const TakeRow& take) {
-  OpenInput(path);  // tells a missing or unreadable file apart
+                            const TakeRow& take, const RowSpan& rows) {
+  const Hdf5Handle file = OpenFile(path);
+  return ReadHdf5Table(file.get(), path.string(), layout, take, rows);
+}
+
+struct Hdf5Frames::Impl {
+  TablePlace place;
+  Hdf5Handle file, group;
+  Column frame;
+};
+
+Hdf5Frames::Hdf5Frames(const std::filesystem::path& path, const std::string& table) {
   const SilentHdf5 silent;
-  const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file.IsOpen()) {
-    TablePlace{.file = path.string(), .is_text = false}.Fail(
-        0, "this is not an HDF5 file", "names that end in .h5 must be; name a CSV otherwise");
+  const TablePlace place{.file = path.string(), .is_text = false};
+  Hdf5Handle file = OpenFile(path);
+  Hdf5Handle group = OpenGroup(file.get(), {.name = table, .columns = {}}, place);
+  Column frame(group, "frame", place);
+  impl_ = std::make_unique<Impl>(Impl{place, std::move(file), std::move(group), std::move(frame)});
+}
+Hdf5Frames::~Hdf5Frames() = default;
+
+std::uint64_t Hdf5Frames::size() const { return impl_->frame.length(); }
+
+std::optional<PlacedRow> Hdf5Frames::From(std::uint64_t row) {
+  constexpr hsize_t kMost = 64;
+  const SilentHdf5 silent;
+  const hsize_t end = std::min<hsize_t>(size(), row + kMost);
+  for (hsize_t k = row; k < end; ++k) {
+    impl_->frame.Read(k, 1, impl_->place);
+    const double frame = impl_->frame.Real(0);
+    if (frame >= 1 && frame <= kMaxFrame) return PlacedRow{k, static_cast<int>(frame)};
   }
-  return ReadHdf5Table(file.get(), path.string(), layout, take);
+  return std::nullopt;
 }
 
 }  // namespace flocklift::internal

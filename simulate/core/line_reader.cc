@@ -17,8 +17,8 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
 
-LineReader::LineReader(std::istream& stream, std::string name)
-    : stream_(stream), name_(std::move(name)), buffer_(kBlock) {}
+LineReader::LineReader(std::istream& stream, std::string name, long lines_before)
+    : stream_(stream), name_(std::move(name)), buffer_(kBlock), line_(lines_before) {}
 
 bool LineReader::Refill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);

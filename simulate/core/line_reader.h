@@ -16,8 +16,9 @@ namespace flocklift {
 
 class LineReader {
  public:
-  // `name` is the file's, for messages. The stream must outlive the reader.
-  LineReader(std::istream& stream, std::string name);
+  // `name` is the file's, for messages; `lines_before` of it stand before what the stream holds.
+  // The stream must outlive the reader.
+  LineReader(std::istream& stream, std::string name, long lines_before = 0);
 
   // The next line, valid until the next call; false at the end. InputError when a line is longer
   // than any text file of ours, or the stream fails.

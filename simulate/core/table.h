@@ -8,11 +8,13 @@
 #ifndef FLOCKLIFT_SIMULATE_CORE_TABLE_H_
 #define FLOCKLIFT_SIMULATE_CORE_TABLE_H_
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulate/core/observations.h"
@@ -62,6 +64,12 @@ struct TableRow {
 };
 using TakeRow = std::function<void(const TableRow&)>;
 
+// Where a row stands that has the frame: a byte of a text, or a row of an HDF5 table from 0.
+struct PlacedRow {
+  std::uint64_t place = 0;
+  int frame = 0;
+};
+
 struct TableContents {
   TablePlace place;
   std::optional<double> fps;
@@ -69,9 +77,15 @@ struct TableContents {
   long row_count = 0;
 };
 
+// What stands before the rows of a stream that holds only a part of its file.
+struct CsvPart {
+  std::string_view head = {};  // comments and the header
+  long lines_before = 0;       // the head's among them
+};
+
 // Calls `take` for each row in the file's order; memory does not grow with the file.
 TableContents ReadCsvTable(std::istream& stream, const std::string& name, const TableLayout& layout,
-                           const TakeRow& take);
+                           const TakeRow& take, const CsvPart& part = {});
 // By the file's name: .h5 or text.
 TableContents ReadTable(const std::filesystem::path& path, const TableLayout& layout,
                         const TakeRow& take);

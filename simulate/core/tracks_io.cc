@@ -10,6 +10,7 @@
 #include "simulate/core/hdf5_table.h"
 #include "simulate/core/input_file.h"
 #include "simulate/core/io.h"
+#include "simulate/core/read_part.h"
 #include "simulate/core/table_writer.h"
 
 namespace flocklift {
@@ -53,12 +54,12 @@ Detection CheckedDetection(const TableRow& row) {
 
 // `read(layout, take)` is one of the two readers of tables.
 template <typename Read>
-Tracks ReadTracksWith(const Read& read) {
+Tracks ReadTracksWith(const Read& read, bool may_be_empty = false) {
   AnimalRows<Detection> rows;
   const TableContents contents = read(Layout(false), [&](const TableRow& row) {
     rows.Add(row.id, CheckedDetection(row), row.line);
   });
-  if (contents.row_count == 0) {
+  if (contents.row_count == 0 && !may_be_empty) {
     contents.place.Fail(0, "there are no rows", "give tracks that hold at least one");
   }
   Tracks tracks{.fps = contents.fps, .tracklets = {}};
@@ -117,6 +118,11 @@ Tracks ReadTracks(std::istream& stream, const std::string& name) {
   return ReadTracksWith([&](const TableLayout& layout, const auto& take) {
     return ReadCsvTable(stream, name, layout, take);
   });
+}
+
+std::optional<Tracks> ReadTracks(const TableByFrame& table, int first, int last) {
+  return internal::ReadPart(table, first, last,
+                            [](const auto& read) { return ReadTracksWith(read, true); });
 }
 
 std::vector<DetectionFrame> ReadDetections(const std::filesystem::path& path) {

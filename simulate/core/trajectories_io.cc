@@ -9,6 +9,7 @@
 #include "simulate/core/animal_rows.h"
 #include "simulate/core/input_file.h"
 #include "simulate/core/io.h"
+#include "simulate/core/read_part.h"
 #include "simulate/core/table_writer.h"
 
 namespace flocklift {
@@ -67,11 +68,11 @@ TrajectoryPoint CheckedPoint(const TableRow& row) {
 }
 
 template <typename Read>
-Trajectories ReadTrajectoriesWith(const Read& read) {
+Trajectories ReadTrajectoriesWith(const Read& read, bool may_be_empty = false) {
   AnimalRows<TrajectoryPoint> rows;
   const TableContents contents =
       read(Layout(), [&](const TableRow& row) { rows.Add(row.id, CheckedPoint(row), row.line); });
-  if (contents.row_count == 0) {
+  if (contents.row_count == 0 && !may_be_empty) {
     contents.place.Fail(0, "there are no rows", "give trajectories that hold at least one");
   }
   Trajectories result{.fps = contents.fps,
@@ -96,6 +97,11 @@ Trajectories ReadTrajectories(std::istream& stream, const std::string& name) {
   return ReadTrajectoriesWith([&](const TableLayout& layout, const auto& take) {
     return ReadCsvTable(stream, name, layout, take);
   });
+}
+
+std::optional<Trajectories> ReadTrajectories(const TableByFrame& table, int first, int last) {
+  return internal::ReadPart(table, first, last,
+                            [](const auto& read) { return ReadTrajectoriesWith(read, true); });
 }
 
 TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& path, const Trajectories& like)
