@@ -109,8 +109,10 @@ std::optional<TableContents> TableByFrame::Read(const TableLayout& layout, int f
                                                 bool counts_lines,
                                                 const internal::TakeRow& take) const {
   const int after = std::max(last, 0) + 1;
+  int before_row = first;  // the frame of the row before
   const internal::TakeRow checked = [&](const TableRow& row) {
-    if (row.frame < first || row.frame > last) throw NotByFrame();
+    if (row.frame < before_row || row.frame > last) throw NotByFrame();
+    before_row = row.frame;
     take(row);
   };
   try {

@@ -34,8 +34,9 @@ class TableByFrame {
   int last_frame() const { return last_frame_; }
 
   // Calls `take` for the rows of frames `first` to `last`, as ReadTable does for all. None when a
-  // row among them is of another frame: the file is not by frame after all. Rows are told by their
-  // line from the beginning of the text only if `counts_lines`, which reads all that is before.
+  // row among them is of another frame or out of order: the file is not by frame after all. Rows
+  // are told by their line from the beginning of the text only if `counts_lines`, which reads all
+  // that is before.
   std::optional<internal::TableContents> Read(const internal::TableLayout& layout, int first,
                                               int last, bool counts_lines,
                                               const internal::TakeRow& take) const;
