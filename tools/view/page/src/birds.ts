@@ -37,7 +37,7 @@ function birdGeometry(): THREE.BufferGeometry {
 export class Birds {
   readonly mesh: THREE.InstancedMesh;
   private matrix = new THREE.Matrix4();
-  private colour = new THREE.Color();
+  private known = new Map<string, THREE.Color>(); // what a colour's name is in numbers
   private position = new THREE.Vector3();
   private scale = new THREE.Vector3();
   count = 0;
@@ -53,7 +53,7 @@ export class Birds {
     this.mesh = new THREE.InstancedMesh(birdGeometry(), material, Math.max(most, 1));
     this.mesh.instanceMatrix.setUsage(THREE.DynamicDrawUsage);
     this.mesh.frustumCulled = false;
-    this.mesh.setColorAt(0, this.colour);
+    this.mesh.setColorAt(0, new THREE.Color());
   }
 
   begin(): void {
@@ -63,7 +63,9 @@ export class Birds {
     if (this.count >= this.mesh.instanceMatrix.count) return;
     this.matrix.compose(this.position.set(x, y, z), q, this.scale.set(size, size, size));
     this.mesh.setMatrixAt(this.count, this.matrix);
-    this.mesh.setColorAt(this.count, this.colour.set(colour));
+    let shade = this.known.get(colour);
+    if (!shade) this.known.set(colour, (shade = new THREE.Color(colour)));
+    this.mesh.setColorAt(this.count, shade);
     this.count++;
   }
   end(): void {

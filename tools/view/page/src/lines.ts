@@ -10,7 +10,7 @@ export class Lines {
   private positions: Float32Array;
   private colours: Float32Array;
   private count = 0; // vertices
-  private colour = new THREE.Color();
+  private known = new Map<string, THREE.Color>(); // what a colour's name is in numbers
 
   constructor(
     private most: number, // vertices
@@ -33,15 +33,31 @@ export class Lines {
   }
   add(ax: number, ay: number, az: number, bx: number, by: number, bz: number, colour: string): void {
     if (this.count + 2 > this.most) return;
-    this.positions.set([ax, ay, az, bx, by, bz], 3 * this.count);
-    const { r, g, b } = this.colour.set(colour);
-    this.colours.set([r, g, b, r, g, b], 3 * this.count);
+    let shade = this.known.get(colour);
+    if (!shade) this.known.set(colour, (shade = new THREE.Color(colour)));
+    const { positions, colours } = this;
+    const at = 3 * this.count;
+    positions[at] = ax;
+    positions[at + 1] = ay;
+    positions[at + 2] = az;
+    positions[at + 3] = bx;
+    positions[at + 4] = by;
+    positions[at + 5] = bz;
+    colours[at] = colours[at + 3] = shade.r;
+    colours[at + 1] = colours[at + 4] = shade.g;
+    colours[at + 2] = colours[at + 5] = shade.b;
     this.count += 2;
   }
   end(): void {
     const { geometry } = this.object;
     geometry.setDrawRange(0, this.count);
-    (geometry.attributes.position as THREE.BufferAttribute).needsUpdate = true;
-    (geometry.attributes.color as THREE.BufferAttribute).needsUpdate = true;
+    this.object.visible = this.count > 0;
+    if (this.count === 0) return;
+    for (const name of ['position', 'color']) {
+      const attribute = geometry.attributes[name] as THREE.BufferAttribute;
+      attribute.clearUpdateRanges();
+      attribute.addUpdateRange(0, 3 * this.count);
+      attribute.needsUpdate = true;
+    }
   }
 }
