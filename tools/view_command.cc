@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -58,7 +60,10 @@ void ExportPage(const ViewCommand& command, const PageFiles& page) {
   std::optional<fs::path> truth;
   if (!command.truth.empty()) truth = command.truth;
   Check(fs::is_directory(command.what), "--export needs the folder of a run");
-  const RunData data(command.what, truth, command.fps);
+  const RunData data({.folder = command.what,
+                      .truth = truth,
+                      .fps = command.fps,
+                      .large_bytes = std::numeric_limits<std::uint64_t>::max()});
   const std::string html = MakeExportPage(page, data, {.picture_width = command.export_width});
   WriteTextFile(command.out_page, html);
   if (!command.quiet) {
@@ -85,8 +90,9 @@ void RunView(const ViewCommand& command) {
   std::unique_ptr<SceneView> scene;
   HttpServer server(command.port);
   if (fs::is_directory(command.what)) {
-    folder = std::make_unique<FolderView>(FolderViewOptions{
-        .folder = command.what, .truth = truth, .fps = command.fps, .threads = command.threads});
+    folder = std::make_unique<FolderView>(
+        RunDataOptions{.folder = command.what, .truth = truth, .fps = command.fps},
+        command.threads);
     folder->Serve(&server);
   } else {
     scene = std::make_unique<SceneView>(command.what, command.out, command.threads);

@@ -95,10 +95,27 @@ std::vector<fs::path> CsvOrHdf5(const fs::path& folder, const std::string& stem)
   return {folder / (stem + ".csv"), folder / (stem + ".h5")};
 }
 
-std::optional<Trajectories> ReadPaths(const fs::path& folder, RunFolder* run) {
-  const auto path = Find(CsvOrHdf5(folder, "trajectories"), run);
-  if (!path) return std::nullopt;
-  return ReadTrajectories(*path);
+fs::path FindTable(const fs::path& folder, const std::string& stem, RunFolder* run) {
+  return Find(CsvOrHdf5(folder, stem), run).value_or(fs::path());
+}
+
+std::optional<Trajectories> ReadPaths(const fs::path& path) {
+  if (path.empty()) return std::nullopt;
+  return ReadTrajectories(path);
+}
+
+void ReadTables(const fs::path& truth, RunFolder* run) {
+  const RunTables& tables = run->tables;
+  if (!tables.tracks.empty()) {
+    run->tracks = ReadTracks(tables.tracks);
+    if (!tables.shapes.empty()) ReadShapes(tables.shapes, &*run->tracks);
+  }
+  run->trajectories = ReadPaths(tables.trajectories);
+  run->replay = ReadPaths(FindTable(run->folder / "replay", "trajectories", run));
+  run->true_trajectories = ReadPaths(tables.true_trajectories);
+  if (truth.empty()) return;
+  const fs::path true_tracks = FindTable(truth, "tracks_true", run);
+  if (!true_tracks.empty()) run->true_tracks = ReadTracks(true_tracks);
 }
 
 // The first folder that holds a truth; empty when none does.
@@ -136,7 +153,7 @@ double RunFolder::TimeOf(int frame) const { return fps ? (frame - 1) / *fps : fr
 const char* RunFolder::TimeLabel() const { return fps ? "time [s]" : "frame"; }
 
 RunFolder ReadRunFolder(const fs::path& folder, const std::optional<fs::path>& truth_given,
-                        std::optional<double> fps) {
+                        std::optional<double> fps, bool reads_tables) {
   if (!fs::is_directory(folder)) {
     throw InputError(folder.string(), 0, "is no folder", "give the folder of a run");
   }
@@ -160,30 +177,21 @@ RunFolder ReadRunFolder(const fs::path& folder, const std::optional<fs::path>& t
     run.camera = ReadCamera(*path);
     run.camera_file = *path;
   }
-  if (const auto path = Find(CsvOrHdf5(folder, "tracks"), &run)) {
-    run.tracks = ReadTracks(*path);
-    if (const auto shapes = Find(CsvOrHdf5(folder, "shapes"), &run)) {
-      ReadShapes(*shapes, &*run.tracks);
-    }
-  }
-  run.trajectories = ReadPaths(folder, &run);
+  run.tables.tracks = FindTable(folder, "tracks", &run);
+  if (!run.tables.tracks.empty()) run.tables.shapes = FindTable(folder, "shapes", &run);
+  run.tables.trajectories = FindTable(folder, "trajectories", &run);
   if (const auto path = Find({folder / "parameters.toml"}, &run)) {
     run.parameters = ReadParameters(*path);
   }
-  run.replay = ReadPaths(folder / "replay", &run);
-  if (!truth.empty()) {
-    run.true_trajectories = ReadPaths(truth, &run);
-    if (const auto path = Find(CsvOrHdf5(truth, "tracks_true"), &run)) {
-      run.true_tracks = ReadTracks(*path);
-    }
-  }
+  if (!truth.empty()) run.tables.true_trajectories = FindTable(truth, "trajectories", &run);
   std::vector<fs::path> scores = {folder / "scores.json"};
   if (is_round_trip) scores.push_back(parent / "scores.json");
   if (const auto path = Find(scores, &run)) run.scores = ReadJson(*path);
-  if (!run.tracks && !run.trajectories) {
+  if (run.tables.tracks.empty() && run.tables.trajectories.empty()) {
     throw InputError(folder.string(), 0, "holds neither tracks.csv nor trajectories.csv",
                      "give the folder that `flocklift run`, `track` or `reconstruct` wrote");
   }
+  if (reads_tables) ReadTables(truth, &run);
   run.video = FindVideo(folders, run);
 
   run.fps = fps;

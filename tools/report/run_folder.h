@@ -25,9 +25,15 @@ struct StageSummary {
   nlohmann::ordered_json json;
 };
 
+// The tables of a folder, CSV or HDF5; empty: there is none.
+struct RunTables {
+  std::filesystem::path tracks, shapes, trajectories, true_trajectories;
+};
+
 struct RunFolder {
   std::filesystem::path folder;
   std::optional<double> fps;  // [1/s]
+  RunTables tables;
   std::optional<Camera> camera;
   std::filesystem::path camera_file;  // empty: none
   std::optional<Tracks> tracks;
@@ -49,10 +55,11 @@ struct RunFolder {
 
 // `truth`: the folder of the truth; not given: DIR/truth or DIR/../truth, if there. `fps` overrides
 // what the files say. Throws InputError for a folder that is none or holds nothing to report, and
-// for a file that is damaged.
+// for a file that is damaged. Without `reads_tables` the rows of tracks and trajectories stay in
+// their files, and what they say of fps is not known.
 RunFolder ReadRunFolder(const std::filesystem::path& folder,
                         const std::optional<std::filesystem::path>& truth,
-                        std::optional<double> fps);
+                        std::optional<double> fps, bool reads_tables = true);
 
 }  // namespace flocklift
 

@@ -43,11 +43,10 @@ std::string Replaced(std::string text, std::string_view what, std::string_view w
   return text;
 }
 
-template <typename Table>
-Json WindowsOf(const Table& table, int last) {
+Json WindowsOf(const RunData& data, const std::string& what) {
   Json list = Json::array();
-  for (int first = 0; first <= last; first += kWindow) {
-    list.push_back(AsBase64(PackWindow(table, first, first + kWindow - 1)));
+  for (int first = 0, last = data.Span().last; first <= last; first += kWindow) {
+    list.push_back(AsBase64(data.Window(what, first, first + kWindow - 1)));
   }
   return list;
 }
@@ -87,15 +86,11 @@ std::string MakeExportPage(const PageFiles& page, const RunData& data,
                               {"reason", "exported"}};
   json["session"]["edits"] = {{"reason", "exported"}, {"lines", Json::array()}, {"redo", 0}};
   json["windowLength"] = kWindow;
-  const int last = data.Span().last;
-  json["windows"]["boxes"] = WindowsOf(data.boxes(), last);
-  for (const char* what : {"before", "truth"}) {
-    const TrajectoryTable* table = data.Table(what);
-    json["windows"][what] = table != nullptr ? WindowsOf(*table, last) : Json::array();
+  for (const char* what : {"boxes", "before", "truth"}) {
+    const bool is_there = what == std::string("boxes") || data.FlockOf(what) != nullptr;
+    json["windows"][what] = is_there ? WindowsOf(data, what) : Json::array();
   }
-  const TrajectoryTable* flock = data.Table("before");
-  const TrajectoryTable none{};
-  json["series"] = FlockSeries(flock != nullptr ? *flock : none, data.run().camera);
+  json["series"] = FlockSeries(data.Curves("before"), data.run().camera);
   json["pictures"] = Json::array();
   json["stride"] = 1;
   if (const auto& footage = data.footage()) {

@@ -55,15 +55,14 @@ struct FrameView {
 
 }  // namespace
 
-Json FlockSeries(const TrajectoryTable& table, const std::optional<Camera>& camera,
-                 std::size_t most_rows) {
+Json FlockSeries(const TrajectoryTable& table, const std::optional<Camera>& camera) {
   Json json;
   for (const char* name : {"frames", "depth", "speed", "neighbour", "polarisation"}) {
     json[name] = Json::array();
   }
-  const int stride = 1 + static_cast<int>(table.rows.animal.size() / most_rows);
-  for (int k = 0; k < table.rows.frame_count(); k += stride) {
+  for (int k = 0; k < table.rows.frame_count(); ++k) {
     FrameView view(table, k, camera);
+    if (view.position.empty()) continue;
     std::vector<double> speeds;
     for (const Vec3d& v : view.velocity) speeds.push_back(Norm(v));
     std::vector<double> distances = NearestNeighbourDistances(view.position);

@@ -17,11 +17,9 @@
 namespace flocklift {
 
 // {"frames": [..], "depth": [..], "speed": [..], "neighbour": [..], "polarisation": [..]}: medians
-// over the animals of each frame, null where there is none. Of long films every n-th frame, so that
-// at most `most_rows` rows of the table are looked at.
+// over the animals of each frame that has rows, null where there is none.
 nlohmann::ordered_json FlockSeries(const TrajectoryTable& table,
-                                   const std::optional<Camera>& camera,
-                                   std::size_t most_rows = 2'000'000);
+                                   const std::optional<Camera>& camera);
 
 // The same of one animal, with "sd_depth", over the frames in which it is there.
 nlohmann::ordered_json AnimalSeries(const TrajectoryTable& table,

@@ -3,6 +3,7 @@
 
 #include "tools/view/folder_view.h"
 
+#include <atomic>
 #include <mutex>
 #include <shared_mutex>
 #include <sstream>
@@ -10,9 +11,11 @@
 
 #include "simulate/core/check.h"
 #include "simulate/core/io.h"
+#include "tools/view/background.h"
 #include "tools/view/event_bus.h"
 #include "tools/view/flock_series.h"
 #include "tools/view/folder_path.h"
+#include "tools/view/late_reader.h"
 #include "tools/view/page_routes.h"
 #include "tools/view/run_data.h"
 #include "tools/view/sketch.h"
@@ -32,16 +35,23 @@ constexpr const char* kSketch = "sketch_tracks.csv";
 
 class FolderView::Impl {
  public:
-  explicit Impl(const FolderViewOptions& options)
-      : data_(options.folder, options.truth, options.fps),
-        threads_(options.threads),
+  Impl(const RunDataOptions& options, int threads)
+      : data_(options),
+        threads_(threads),
+        told_animals_(data_.animal_count()),
+        reader_(&data_, &mutex_, &bus_),
         solver_({.progress = [this](auto job, auto done, auto total) { Tell(job, done, total); },
                  .finished = [this](auto job, ReconstructResult&& result,
                                     double seconds) { Finished(job, std::move(result), seconds); },
                  .failed =
                      [this](auto job, const std::string& reason) {
                        bus_.Publish("solve", {{"job", job}, {"state", "failed"}, {"text", reason}});
-                     }}) {}
+                     }}) {
+    background_.Add([this](const Progress& alive) {
+      reader_.Run(alive);
+      RankSuspects();
+    });
+  }
 
   void Serve(HttpServer* server) {
     ServePage(server, &bus_);
@@ -78,34 +88,30 @@ class FolderView::Impl {
  private:
   HttpReply Window(const HttpRequest& request) {
     const int first = request.Number("first"), last = request.Number("last");
-    const std::string what = request.Text("what");
     const std::shared_lock lock(mutex_);
-    if (what == "boxes") return BinaryReply(PackWindow(data_.boxes(), first, last));
-    const TrajectoryTable* table = data_.Table(what);
-    static const TrajectoryTable kNone{};  // a temporary here would copy the whole table
-    return BinaryReply(PackWindow(table != nullptr ? *table : kNone, first, last));
+    HttpReply reply = BinaryReply(data_.Window(request.Text("what"), first, last));
+    const std::size_t animals = data_.animal_count();
+    if (told_animals_.exchange(animals) < animals) bus_.Publish("data", data_.Versions());
+    return reply;
   }
 
   HttpReply Series(const HttpRequest& request) {
     const std::shared_lock lock(mutex_);
-    const TrajectoryTable* table = data_.Table(request.Text("what", "before"));
-    if (table == nullptr) return JsonReply(FlockSeries({}, {}));
+    const TrajectoryTable& table = data_.Curves(request.Text("what", "before"));
     const std::string animal = request.Text("animal");
-    if (animal.empty()) return JsonReply(FlockSeries(*table, data_.run().camera));
+    if (animal.empty()) return JsonReply(FlockSeries(table, data_.run().camera));
     const int index = request.Number("animal");
     Check(index >= 0, "animals count from 0");
-    return JsonReply(AnimalSeries(*table, data_.run().camera, static_cast<std::uint32_t>(index)));
+    return JsonReply(AnimalSeries(table, data_.run().camera, static_cast<std::uint32_t>(index)));
   }
 
   HttpReply Suspects() {
     const std::shared_lock lock(mutex_);
     Json list = Json::array();
-    if (!data_.run().tracks) return JsonReply(list);
-    const auto& footage = data_.footage();
-    const auto& camera = data_.run().camera;
-    const double width = footage ? footage->width() : camera ? camera->width : 1e4;
-    const double height = footage ? footage->height() : camera ? camera->height : 1e4;
-    for (const Suspect& s : FindSuspects(data_.CurrentTracks(), width, height)) {
+    const Json& doubts = data_.TrackerDoubts();
+    const std::vector<Suspect> suspects =
+        doubts.is_array() ? SuspectsOfTracker(doubts, data_.Corrections()) : ranked_;
+    for (const Suspect& s : suspects) {
       list.push_back({{"frame", s.frame},
                       {"id", std::to_string(s.id)},
                       {"other", s.other_id == 0 ? "" : std::to_string(s.other_id)},
@@ -113,6 +119,31 @@ class FolderView::Impl {
                       {"doubt", s.doubt}});
     }
     return JsonReply(list);
+  }
+
+  // Where the tracker left no doubts of its own, the page's are found in the background, and told.
+  void RankSuspects() {
+    background_.Add([this](const Progress& alive) {
+      TrackList tracks;
+      double width = 1e4, height = 1e4;
+      {
+        const std::shared_lock lock(mutex_);
+        if (data_.TrackerDoubts().is_array()) return;
+        tracks = data_.CurrentTracks();
+        const auto& footage = data_.footage();
+        const auto& camera = data_.run().camera;
+        if (footage || camera) {
+          width = footage ? footage->width() : camera->width;
+          height = footage ? footage->height() : camera->height;
+        }
+      }
+      std::vector<Suspect> found = FindSuspects(tracks, width, height, alive);
+      {
+        const std::unique_lock lock(mutex_);
+        ranked_ = std::move(found);
+      }
+      bus_.Publish("suspects", {{"number", ++rankings_}});
+    });
   }
 
   HttpReply Frame(const HttpRequest& request) {
@@ -160,9 +191,9 @@ class FolderView::Impl {
       options.batch = command.batch;
       options.cobyla = command.cobyla;
       line = CommandLineOf(command);
-      job = [options, tracks = of_sketch ? sketch_ : data_.CurrentTracks(), camera = *run.camera,
-             fps = *run.fps, threads = threads_](const Progress& progress) {
-        return Reconstruct(options, tracks, camera, fps, threads, progress);
+      job = [options, tracks = of_sketch ? Shared(sketch_) : data_.CurrentTracks(),
+             camera = *run.camera, fps = *run.fps, threads = threads_](const Progress& progress) {
+        return Reconstruct(options, AsTracks(tracks), camera, fps, threads, progress);
       };
     }
     const std::int64_t number = solver_.Start(std::move(job));
@@ -210,6 +241,7 @@ class FolderView::Impl {
       edits = data_.Edits();
       versions = data_.Versions();
     }
+    RankSuspects();
     bus_.Publish("edits", edits);
     bus_.Publish("data", versions);
     return JsonReply({{"edits", edits}, {"versions", versions}});
@@ -226,15 +258,20 @@ class FolderView::Impl {
         {{"file", (data_.folder() / kSketch).string()}, {"tracks", sketch_.tracklets.size()}});
   }
 
-  std::shared_mutex mutex_;  // guards data_ and sketch_
+  std::shared_mutex mutex_;  // guards data_, sketch_ and ranked_
   RunData data_;
   Tracks sketch_;
-  int threads_;
+  std::vector<Suspect> ranked_;
+  int threads_, rankings_ = 0;
+  std::atomic<std::size_t> told_animals_;
   EventBus bus_;
-  Solver solver_;  // the last, so that it stops before what it tells goes
+  LateReader reader_;
+  Solver solver_;  // these are the last, so that they stop before what they tell goes
+  Background background_;
 };
 
-FolderView::FolderView(const FolderViewOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+FolderView::FolderView(const RunDataOptions& options, int threads)
+    : impl_(std::make_unique<Impl>(options, threads)) {}
 FolderView::~FolderView() = default;
 void FolderView::Serve(HttpServer* server) { impl_->Serve(server); }
 

@@ -12,30 +12,24 @@
 //   POST /api/solve, /api/cancel          options as in summary.reconstruct.json
 //   POST /api/edit, /api/undo, /api/redo  {"line": "swap 3 7 120"}
 //   POST /api/sketch                      strokes (sketch.h), written as sketch_tracks.csv
-// News: "solve" (state, done, total ..), "data" (versions of what /api/window gives).
+// News: "solve" (state, done, total ..), "data" (versions of what /api/window gives), "edits",
+// "suspects" (there are new ones), "reading" (late_reader.h).
 
 #ifndef FLOCKLIFT_TOOLS_VIEW_FOLDER_VIEW_H_
 #define FLOCKLIFT_TOOLS_VIEW_FOLDER_VIEW_H_
 
-#include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "tools/view/http_server.h"
+#include "tools/view/run_data.h"
 
 namespace flocklift {
 
-struct FolderViewOptions {
-  std::filesystem::path folder = {};
-  std::optional<std::filesystem::path> truth = {};  // not given: as `report` finds it
-  std::optional<double> fps = {};
-  int threads = 0;  // of a solve; 0: all that the machine has
-};
-
 class FolderView {
  public:
-  // Reads the folder. Throws InputError for one that is none, or whose files are damaged.
-  explicit FolderView(const FolderViewOptions& options);
+  // Reads the folder, but for what is large (run_data.h); `threads` are those of a solve, 0: all
+  // that the machine has. Throws InputError for a folder that is none, or whose files are damaged.
+  FolderView(const RunDataOptions& options, int threads);
   ~FolderView();
 
   // Adds the routes; the view must outlive the server's Run.

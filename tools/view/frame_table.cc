@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "simulate/core/check.h"
 
@@ -34,11 +35,14 @@ FrameRows LayOut(const Items& items, FrameSpan span, const AnimalList& animals,
   for (std::size_t k = 1; k < rows.start.size(); ++k) rows.start[k] += rows.start[k - 1];
   rows.animal.resize(rows.start.back());
   std::vector<std::uint32_t> next(rows.start.begin(), rows.start.end() - 1);
-  for (const auto& item : items) {
-    const std::uint32_t animal = animals.IndexOf(item.id);
-    std::vector<std::uint32_t>& mine = places->emplace_back();
-    mine.reserve(points_of(item).size());
-    for (const auto& point : points_of(item)) {
+  std::vector<std::pair<std::uint32_t, std::size_t>> order;  // place in the list, item
+  for (const auto& item : items) order.emplace_back(animals.IndexOf(item.id), order.size());
+  std::sort(order.begin(), order.end());
+  places->resize(order.size());
+  for (const auto& [animal, item] : order) {
+    std::vector<std::uint32_t>& mine = (*places)[item];
+    mine.reserve(points_of(items[item]).size());
+    for (const auto& point : points_of(items[item])) {
       const std::uint32_t place = next[static_cast<std::size_t>(point.frame - span.first)]++;
       rows.animal[place] = animal;
       mine.push_back(place);
@@ -100,14 +104,21 @@ RowRange BeginWindow(std::uint32_t kind, const FrameRows& rows, int first, int l
 }  // namespace
 
 void AnimalList::Add(Id id) {
-  const auto place = std::lower_bound(ids_.begin(), ids_.end(), id);
-  if (place == ids_.end() || *place != id) ids_.insert(place, id);
+  if (places_.emplace(id, static_cast<std::uint32_t>(ids_.size())).second) ids_.push_back(id);
+}
+
+void AnimalList::Add(const Tracks& tracks) {
+  for (const Tracklet& t : tracks.tracklets) Add(t.id);
+}
+
+void AnimalList::Add(const Trajectories& trajectories) {
+  for (const Trajectory& t : trajectories.trajectories) Add(t.id);
 }
 
 std::uint32_t AnimalList::IndexOf(Id id) const {
-  const auto place = std::lower_bound(ids_.begin(), ids_.end(), id);
-  Check(place != ids_.end() && *place == id, "the animal is not in the list");
-  return static_cast<std::uint32_t>(place - ids_.begin());
+  const auto place = places_.find(id);
+  Check(place != places_.end(), "the animal is not in the list");
+  return place->second;
 }
 
 TrajectoryTable TableOf(const Trajectories& trajectories, const AnimalList& animals) {

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "simulate/core/observations.h"
@@ -22,15 +23,19 @@
 
 namespace flocklift {
 
-// The animals that a page knows, by increasing id: tables name them by their place.
+// The animals that a page knows, in the order in which they were first heard of: tables name them
+// by their place, which never changes.
 class AnimalList {
  public:
-  void Add(Id id);                     // once or again
+  void Add(Id id);  // once or again
+  void Add(const Tracks& tracks);
+  void Add(const Trajectories& trajectories);
   std::uint32_t IndexOf(Id id) const;  // must be there
   const std::vector<Id>& ids() const { return ids_; }
 
  private:
   std::vector<Id> ids_;
+  std::unordered_map<Id, std::uint32_t> places_;
 };
 
 // The rows of all frames in a span of frames, as counted.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "simulate/core/check.h"
+#include "simulate/core/io.h"
 #include "tools/view/camera_json.h"
 #include "tools/view/solve_options.h"
 
@@ -18,6 +19,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kCorrections = "corrections.txt";
+constexpr std::size_t kFirstRows = 8000;     // of a large flock, looked at before it is shown
+constexpr std::size_t kCurveRows = 2000000;  // of one in memory, that curves are drawn of
+constexpr std::int64_t kMostFrames = 4096;   // of a large file at a time
 
 const Json* SummaryOf(const RunFolder& run, const std::string& stage) {
   for (const StageSummary& summary : run.summaries) {
@@ -39,14 +43,14 @@ std::pair<fs::path, std::string> CorrectionsOf(const RunFolder& run) {
 }
 
 // A box around nearly all rows: strays that are far away would hide the flock.
-Json BoundsOf(const TrajectoryTable* table) {
-  if (table == nullptr || table->rows.animal.empty()) return nullptr;
+Json BoundsOf(const TrajectoryTable& table) {
+  if (table.rows.animal.empty()) return nullptr;
   Json low = Json::array(), high = Json::array();
-  const std::size_t n = table->rows.animal.size(), stride = 1 + n / 100000;
+  const std::size_t n = table.rows.animal.size(), stride = 1 + n / 100000;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::vector<float> values;
     for (std::size_t row = 0; row < n; row += stride) {
-      values.push_back(table->position[3 * row + axis]);
+      values.push_back(table.position[3 * row + axis]);
     }
     std::sort(values.begin(), values.end());
     const std::size_t cut = values.size() / 200;
@@ -56,27 +60,79 @@ Json BoundsOf(const TrajectoryTable* table) {
   return {{"low", low}, {"high", high}};
 }
 
+// A flock of a file: the rows, or the file where they are.
+struct Opened {
+  std::optional<TableByFrame> file = {};
+  std::optional<Trajectories> whole = {};
+  std::optional<double> fps = {};
+};
+
+// What a large file says of itself before its rows; nothing when it is damaged there.
+template <typename Read>
+std::optional<double> FpsOf(const Read& read_nothing) {
+  try {
+    const auto head = read_nothing();
+    return head ? head->fps : std::nullopt;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+Opened OpenFlock(const fs::path& path, std::uint64_t large_bytes) {
+  Opened opened;
+  if (path.empty()) return opened;
+  opened.file = OpenLarge(path, "trajectories", large_bytes);
+  if (opened.file) {
+    opened.fps = FpsOf([&] { return ReadTrajectories(*opened.file, 0, 0); });
+  } else {
+    opened.whole = ReadTrajectories(path);
+    opened.fps = opened.whole->fps;
+  }
+  return opened;
+}
+
+std::optional<FlockRows> RowsOf(Opened opened, std::optional<double> fps) {
+  if (opened.file) return FlockRows(std::move(*opened.file), fps);
+  if (opened.whole) return FlockRows(std::move(*opened.whole), fps);
+  return std::nullopt;
+}
+
 }  // namespace
 
-RunData::RunData(const fs::path& folder, const std::optional<fs::path>& truth,
-                 std::optional<double> fps)
-    : run_(ReadRunFolder(folder, truth, fps)) {
-  if (run_.tracks) {
-    for (const Tracklet& t : run_.tracks->tracklets) animals_.Add(t.id);
-  }
-  for (const auto* paths : {&run_.trajectories, &run_.true_trajectories}) {
-    if (!*paths) continue;
-    for (const Trajectory& t : (*paths)->trajectories) animals_.Add(t.id);
-  }
+RunData::RunData(const RunDataOptions& options)
+    : run_(ReadRunFolder(options.folder, options.truth, options.fps, /*reads_tables=*/false)) {
+  OpenTables(options);
   OpenFootage();
   OpenEditor();
-  if (editor_) {
-    TracksChanged();
-  } else if (run_.tracks) {
-    boxes_ = TableOf(*run_.tracks, animals_);
+}
+
+void RunData::OpenTables(const RunDataOptions& options) {
+  const RunTables& files = run_.tables;
+  if (files.tracks.empty()) {
+    no_tracks_ = "The folder holds no tracks.";
+  } else if ((track_file_ = OpenLarge(files.tracks, "tracks", options.large_bytes))) {
+    tracks_fps_ = FpsOf([&] { return ReadTracks(*track_file_, 0, 0); });
+    no_tracks_ = "The tracks are still being read.";
+  } else {
+    Tracks tracks = ReadTracks(files.tracks);
+    if (!files.shapes.empty()) ReadShapes(files.shapes, &tracks);
+    tracks_fps_ = tracks.fps;
+    tracks_ = Shared(std::move(tracks));
+    for (const auto& t : tracks_) animals_.Add(t->id);
   }
-  if (run_.trajectories) before_ = TableOf(*run_.trajectories, animals_);
-  if (run_.true_trajectories) truth_ = TableOf(*run_.true_trajectories, animals_);
+  Opened before = OpenFlock(files.trajectories, options.large_bytes);
+  Opened truth = OpenFlock(files.true_trajectories, options.large_bytes);
+  const std::optional<double> camera_fps = run_.camera ? run_.camera->fps : std::nullopt;
+  run_.fps = options.fps;
+  for (const auto& fps : {before.fps, tracks_fps_, camera_fps, truth.fps}) {
+    if (!run_.fps) run_.fps = fps;
+  }
+  for (auto& [opened, flock] : {std::pair(&before, &before_), std::pair(&truth, &truth_)}) {
+    auto rows = RowsOf(std::move(*opened), run_.fps);
+    if (!rows) continue;
+    const TrajectoryTable curves = CurvesOf(rows->Sample(rows->file() ? kFirstRows : kCurveRows));
+    flock->emplace(Flock{std::move(*rows), curves});
+  }
 }
 
 void RunData::OpenFootage() {
@@ -92,30 +148,103 @@ void RunData::OpenFootage() {
 }
 
 void RunData::OpenEditor() {
-  if (!run_.tracks) {
-    no_editor_ = "The folder holds no tracks.";
-    return;
-  }
+  no_editor_ = no_tracks_;
+  if (!no_tracks_.empty()) return;
   try {
     auto [path, sha256] = CorrectionsOf(run_);
     if (path.empty()) path = run_.folder / kCorrections;
-    const int frames = footage_ ? footage_->frame_count() : SpanOf(*run_.tracks).last;
-    editor_ =
-        std::make_unique<TrackEditor>(*run_.tracks, frames, ReadCorrectionsFile(path, sha256));
+    int last = 0;
+    for (const auto& t : tracks_) last = std::max(last, t->detections.back().frame);
+    editor_ = std::make_unique<TrackEditor>(tracks_, tracks_fps_,
+                                            footage_ ? footage_->frame_count() : last,
+                                            ReadCorrectionsFile(path, sha256));
+    TracksChanged();
   } catch (const InputError& error) {
     no_editor_ = error.what();
   }
 }
 
-const TrajectoryTable* RunData::Table(const std::string& what) const {
-  const auto& table = what == "after" ? after_ : what == "truth" ? truth_ : before_;
-  Check(what == "after" || what == "truth" || what == "before", "there is no table " + what);
-  return table ? &*table : nullptr;
+const std::optional<RunData::Flock>& RunData::Find(const std::string& what) const {
+  Check(what == "after" || what == "truth" || what == "before", "there is no flock " + what);
+  return what == "after" ? after_ : what == "truth" ? truth_ : before_;
+}
+
+template <typename Rows>
+std::string RunData::Packed(const Rows& rows, int first, int last) const {
+  const std::lock_guard lock(animals_mutex_);
+  animals_.Add(rows);
+  return PackWindow(TableOf(rows, animals_), first, last);
+}
+
+std::string RunData::Window(const std::string& what, int first, int last) const {
+  const bool is_boxes = what == "boxes";
+  const auto& flock = is_boxes ? before_ : Find(what);
+  if (is_boxes ? track_file_.has_value() : flock && flock->rows.file()) {
+    Check(std::int64_t{last} - first < kMostFrames, "ask for fewer frames at a time");
+  }
+  // A file that turns out not to be by frame is read whole later; until then there is nothing.
+  if (is_boxes) {
+    return Packed(track_file_ ? ReadTracks(*track_file_, first, last).value_or(Tracks{})
+                              : Cut(tracks_, first, last),
+                  first, last);
+  }
+  return Packed(flock ? flock->rows.Rows(first, last).value_or(Trajectories{}) : Trajectories{},
+                first, last);
+}
+
+const TrajectoryTable& RunData::Curves(const std::string& what) const {
+  static const TrajectoryTable kNone{};
+  const auto& flock = Find(what);
+  return flock ? flock->curves : kNone;
+}
+
+const FlockRows* RunData::FlockOf(const std::string& what) const {
+  const auto& flock = Find(what);
+  return flock ? &flock->rows : nullptr;
+}
+
+TrajectoryTable RunData::CurvesOf(const Trajectories& sample) const {
+  const std::lock_guard lock(animals_mutex_);
+  animals_.Add(sample);
+  return TableOf(sample, animals_);
+}
+
+void RunData::SetTracks(Tracks tracks) {
+  tracks_ = Shared(std::move(tracks));
+  track_file_.reset();
+  no_tracks_.clear();
+  OpenEditor();
+  if (!editor_) ++boxes_version_;
+}
+
+void RunData::SetNoTracks(const std::string& reason) { no_tracks_ = no_editor_ = reason; }
+
+void RunData::SetFlock(const std::string& what, FlockRows rows) {
+  const TrajectoryTable curves = CurvesOf(rows.Sample(kCurveRows));
+  (what == "truth" ? truth_ : before_).emplace(Flock{std::move(rows), curves});
+  ++before_version_;
+  ++curves_version_;
+}
+
+void RunData::SetCurves(const std::string& what, const Trajectories& sample) {
+  (what == "truth" ? truth_ : before_)->curves = CurvesOf(sample);
+  ++curves_version_;
+}
+
+void RunData::AddAnimals(const std::vector<Id>& ids) const {
+  const std::lock_guard lock(animals_mutex_);
+  for (const Id id : ids) animals_.Add(id);
+}
+
+std::size_t RunData::animal_count() const {
+  const std::lock_guard lock(animals_mutex_);
+  return animals_.ids().size();
 }
 
 ReconstructCommand RunData::Command() const {
   ReconstructCommand command;
-  command.tracks = run_.folder / "tracks.csv";
+  const fs::path& tracks = run_.tables.tracks;
+  command.tracks = tracks.empty() ? run_.folder / "tracks.csv" : tracks;
   command.camera = run_.camera_file;
   const Json* summary = SummaryOf(run_, "reconstruct");
   if (summary != nullptr && summary->contains("options")) {
@@ -123,17 +252,23 @@ ReconstructCommand RunData::Command() const {
       TakeSolveOptions(summary->at("options"), &command);
     } catch (const std::invalid_argument&) {
       command = {};  // of another version: the defaults
-      command.tracks = run_.folder / "tracks.csv";
+      command.tracks = tracks.empty() ? run_.folder / "tracks.csv" : tracks;
       command.camera = run_.camera_file;
     }
   }
   return command;
 }
 
-Tracks RunData::CurrentTracks() const {
-  Check(run_.tracks.has_value(), "the folder holds no tracks to solve");
-  return editor_ ? editor_->Result() : *run_.tracks;
+const TrackList& RunData::CurrentTracks() const {
+  Check(no_tracks_.empty(), no_tracks_);
+  return tracks_;
 }
+
+std::vector<Correction> RunData::Corrections() const {
+  return editor_ ? editor_->Corrections() : std::vector<Correction>();
+}
+
+const Json& RunData::TrackerDoubts() const { return run_.Figure("track", "suspicious"); }
 
 TrackEditor& RunData::editor() {
   Check(editor_ != nullptr, no_editor_);
@@ -141,15 +276,16 @@ TrackEditor& RunData::editor() {
 }
 
 void RunData::TracksChanged() {
-  const Tracks tracks = editor_->Result();
-  for (const Tracklet& t : tracks.tracklets) animals_.Add(t.id);
-  boxes_ = TableOf(tracks, animals_);
+  tracks_ = editor_->Current();
+  const std::lock_guard lock(animals_mutex_);
+  for (const auto& t : tracks_) animals_.Add(t->id);
   ++boxes_version_;
 }
 
 void RunData::SetSolved(const Trajectories& trajectories) {
-  for (const Trajectory& t : trajectories.trajectories) animals_.Add(t.id);
-  after_ = TableOf(trajectories, animals_);
+  FlockRows rows(trajectories, run_.fps);
+  const TrajectoryTable curves = CurvesOf(rows.Sample(kCurveRows));
+  after_.emplace(Flock{std::move(rows), curves});
   ++after_version_;
 }
 
@@ -161,16 +297,22 @@ FrameSpan RunData::Span() const {
                ? FrameSpan{first, last}
                : FrameSpan{std::min(span.first, first), std::max(span.last, last)};
   };
-  take(boxes_.rows.first_frame, boxes_.rows.last_frame());
-  if (before_) take(before_->rows.first_frame, before_->rows.last_frame());
+  if (track_file_) take(track_file_->first_frame(), track_file_->last_frame());
+  for (const auto& t : tracks_) take(t->detections.front().frame, t->detections.back().frame);
+  if (before_) take(before_->rows.span().first, before_->rows.span().last);
   if (footage_) take(1, footage_->frame_count());
   return span;
 }
 
 Json RunData::Versions() const {
+  const std::lock_guard lock(animals_mutex_);
   Json ids = Json::array();
   for (const Id id : animals_.ids()) ids.push_back(std::to_string(id));
-  return {{"boxes", boxes_version_}, {"after", after_version_}, {"animals", ids}};
+  return {{"boxes", boxes_version_},
+          {"before", before_version_},
+          {"after", after_version_},
+          {"curves", curves_version_},
+          {"animals", ids}};
 }
 
 Json RunData::Edits() const {
@@ -187,13 +329,11 @@ Json RunData::Session() const {
                {"frames", {{"first", span.first}, {"last", span.last}}},
                {"versions", Versions()},
                {"has",
-                {{"boxes", !boxes_.rows.animal.empty()},
-                 {"before", before_ && !before_->rows.animal.empty()},
-                 {"truth", truth_ && !truth_->rows.animal.empty()},
-                 {"sd", run_.trajectories && run_.trajectories->has_sd_depth}}},
-               {"bounds", BoundsOf(before_  ? &*before_
-                                   : truth_ ? &*truth_
-                                            : nullptr)}};
+                {{"boxes", track_file_ || !tracks_.empty()},
+                 {"before", before_.has_value()},
+                 {"truth", truth_.has_value()},
+                 {"sd", before_ && before_->rows.has_sd_depth()}}},
+               {"bounds", BoundsOf(Curves(before_ ? "before" : "truth"))}};
   json["camera"] = run_.camera ? CameraAsJson(*run_.camera) : Json(nullptr);
   json["footage"] = nullptr;
   if (footage_) {
@@ -208,7 +348,7 @@ Json RunData::Session() const {
   json["solve"] = {{"values", SolveOptionsAsJson(command)},
                    {"options", DescribeSolveOptions(command)},
                    {"command", CommandLineOf(command)},
-                   {"reason", !run_.tracks   ? "The folder holds no tracks to solve."
+                   {"reason", run_.tables.tracks.empty() ? "The folder holds no tracks to solve."
                               : !run_.camera ? "The folder says no camera: depth cannot be solved."
                               : !run_.fps    ? "Nothing says how many frames a second has: --fps."
                                              : ""}};

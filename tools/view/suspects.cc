@@ -50,16 +50,18 @@ std::optional<double> Bend(const Tracklet& t, std::size_t k) {
   return Norm(PlaceOf(c) - 2.0 * PlaceOf(b) + PlaceOf(a));
 }
 
-void FindJumps(const Tracks& tracks, std::vector<Suspect>* suspects) {
+void FindJumps(const TrackList& tracks, std::vector<Suspect>* suspects) {
   std::vector<double> bends;
-  for (const Tracklet& t : tracks.tracklets) {
+  for (const auto& shared : tracks) {
+    const Tracklet& t = *shared;
     for (std::size_t k = 1; k + 1 < t.detections.size(); ++k) {
       if (const auto bend = Bend(t, k)) bends.push_back(*bend);
     }
   }
   // Of a two-dimensional normal vector the median length is 1.18 sds.
   const double sd = std::max(Median(&bends) / 1.1774, 1e-3);
-  for (const Tracklet& t : tracks.tracklets) {
+  for (const auto& shared : tracks) {
+    const Tracklet& t = *shared;
     for (std::size_t k = 1; k + 1 < t.detections.size(); ++k) {
       const auto bend = Bend(t, k);
       if (!bend || *bend < kLeastJump * sd || *bend < kJumpOfSize * SizeOf(t.detections[k])) {
@@ -71,8 +73,9 @@ void FindJumps(const Tracks& tracks, std::vector<Suspect>* suspects) {
   }
 }
 
-void FindGaps(const Tracks& tracks, std::vector<Suspect>* suspects) {
-  for (const Tracklet& t : tracks.tracklets) {
+void FindGaps(const TrackList& tracks, std::vector<Suspect>* suspects) {
+  for (const auto& shared : tracks) {
+    const Tracklet& t = *shared;
     int run = 0;
     for (std::size_t k = 0; k <= t.detections.size(); ++k) {
       if (k < t.detections.size() && t.detections[k].confidence < kMeasuredConfidence) {
@@ -88,8 +91,16 @@ void FindGaps(const Tracks& tracks, std::vector<Suspect>* suspects) {
   }
 }
 
-void FindEnds(const Tracks& tracks, double width, double height, std::vector<Suspect>* suspects) {
-  const FrameSpan span = SpanOf(tracks);
+void FindEnds(const TrackList& tracks, double width, double height,
+              std::vector<Suspect>* suspects) {
+  FrameSpan span;
+  for (const auto& t : tracks) {
+    if (t->detections.empty()) continue;
+    const int first = t->detections.front().frame, last = t->detections.back().frame;
+    span = span.last < span.first
+               ? FrameSpan{first, last}
+               : FrameSpan{std::min(span.first, first), std::max(span.last, last)};
+  }
   const auto add = [&](const Tracklet& t, const Detection& d, const char* what) {
     const Vec2d p = d.box.Center();
     const double to_edge = std::min({p.x, p.y, width - 1 - p.x, height - 1 - p.y});
@@ -97,7 +108,8 @@ void FindEnds(const Tracks& tracks, double width, double height, std::vector<Sus
         0.5 * (1 - std::exp(-std::max(0.0, to_edge / std::max(SizeOf(d), 1.0) - 1) / 2));
     if (doubt > 0.02) suspects->push_back({d.frame, t.id, 0, what, doubt});
   };
-  for (const Tracklet& t : tracks.tracklets) {
+  for (const auto& shared : tracks) {
+    const Tracklet& t = *shared;
     if (t.detections.empty()) continue;
     if (t.detections.front().frame > span.first) add(t, t.detections.front(), "start");
     if (t.detections.back().frame < span.last) add(t, t.detections.back(), "end");
@@ -120,15 +132,18 @@ double GainOfExchange(const Tracklet& a, const Tracklet& b, int frame) {
 }
 
 // Pairs that are near in a frame, by bands of columns: not all against all.
-void FindMeetings(const Tracks& tracks, double width, std::vector<Suspect>* suspects) {
+void FindMeetings(const TrackList& tracks, double width, const Progress& alive,
+                  std::vector<Suspect>* suspects) {
   struct Row {
     double u = 0;
     const Detection* detection = nullptr;
     const Tracklet* tracklet = nullptr;
   };
   std::map<int, std::vector<Row>> frames;
-  for (const Tracklet& t : tracks.tracklets) {
-    for (const Detection& d : t.detections) frames[d.frame].push_back({d.box.Center().x, &d, &t});
+  for (const auto& t : tracks) {
+    for (const Detection& d : t->detections) {
+      frames[d.frame].push_back({d.box.Center().x, &d, t.get()});
+    }
   }
   struct Nearest {
     double ratio = 2;
@@ -136,7 +151,7 @@ void FindMeetings(const Tracks& tracks, double width, std::vector<Suspect>* susp
   };
   std::map<std::pair<Id, Id>, Nearest> meetings;
   std::map<Id, const Tracklet*> by_id;
-  for (const Tracklet& t : tracks.tracklets) by_id[t.id] = &t;
+  for (const auto& t : tracks) by_id[t->id] = t.get();
   const auto close = [&](const std::pair<Id, Id>& pair, const Nearest& n) {
     const double gain = GainOfExchange(*by_id[pair.first], *by_id[pair.second], n.frame);
     const double near = 0.9 * std::exp(-2 * n.ratio);
@@ -144,6 +159,7 @@ void FindMeetings(const Tracks& tracks, double width, std::vector<Suspect>* susp
   };
   const double widest = width / kBandsPerPicture;
   for (auto& [frame, rows] : frames) {
+    if (alive) alive(frame, frames.rbegin()->first);
     std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
       return std::tie(a.u, a.tracklet->id) < std::tie(b.u, b.tracklet->id);
     });
@@ -172,12 +188,52 @@ void FindMeetings(const Tracks& tracks, double width, std::vector<Suspect>* susp
   for (const auto& [pair, nearest] : meetings) close(pair, nearest);
 }
 
+// Whether a correction answers the doubt, which lasts until frame `last`; else its ids become those
+// that its animals have now.
+bool DealtWith(const std::vector<Correction>& corrections, int last, Suspect* s) {
+  using Kind = Correction::Kind;
+  for (const Correction& c : corrections) {
+    const auto is_of = [&](Id id) { return id != 0 && (id == s->id || id == s->other_id); };
+    const bool is_near =
+        c.first_frame >= s->frame - kSameEvent && c.first_frame <= last + kSameEvent;
+    switch (c.kind) {
+      case Kind::kSwap:
+        if (is_near && is_of(c.id) && is_of(c.other_id)) return true;
+        if (s->frame >= c.first_frame) {
+          const auto now = [&](Id id) {
+            return id == c.id ? c.other_id : id == c.other_id ? c.id : id;
+          };
+          s->id = now(s->id);
+          s->other_id = now(s->other_id);
+        }
+        break;
+      case Kind::kJoin:
+        if (is_of(c.id) && is_of(c.other_id)) return true;
+        if (s->id == c.other_id) s->id = c.id;
+        if (s->other_id == c.other_id) s->other_id = c.id;
+        break;
+      case Kind::kDelete:
+        if (is_of(c.id) &&
+            (c.first_frame == 0 || (c.first_frame <= last && c.last_frame >= s->frame)))
+          return true;
+        break;
+      case Kind::kSplit:
+      case Kind::kPin:
+        if (is_near && is_of(c.id)) return true;
+        break;
+      case Kind::kAdd:
+        break;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
-std::vector<Suspect> FindSuspects(const Tracks& tracks, double image_width, double image_height,
-                                  std::size_t most) {
+std::vector<Suspect> FindSuspects(const TrackList& tracks, double image_width, double image_height,
+                                  const Progress& alive, std::size_t most) {
   std::vector<Suspect> all;
-  FindMeetings(tracks, image_width, &all);
+  FindMeetings(tracks, image_width, alive, &all);
   FindJumps(tracks, &all);
   FindGaps(tracks, &all);
   FindEnds(tracks, image_width, image_height, &all);
@@ -200,6 +256,28 @@ std::vector<Suspect> FindSuspects(const Tracks& tracks, double image_width, doub
     if (s.other_id != 0) taken[s.other_id].push_back(s.frame);
   }
   return kept;
+}
+
+std::vector<Suspect> SuspectsOfTracker(const nlohmann::ordered_json& list,
+                                       const std::vector<Correction>& corrections) {
+  std::vector<Suspect> suspects;
+  for (const auto& entry : list) {
+    Suspect s;
+    int last = 0;
+    try {
+      const auto& ids = entry.at("ids");
+      s = {.frame = entry.at("frame").get<int>(),
+           .id = ids.at(0).get<Id>(),
+           .other_id = ids.size() > 1 ? ids.at(1).get<Id>() : 0,
+           .what = entry.at("kind").get<std::string>(),
+           .doubt = entry.at("chance").get<double>()};
+      last = entry.value("last_frame", s.frame);
+    } catch (const nlohmann::json::exception&) {
+      continue;  // of another version
+    }
+    if (!DealtWith(corrections, last, &s)) suspects.push_back(s);
+  }
+  return suspects;
 }
 
 }  // namespace flocklift

@@ -15,11 +15,14 @@
 #ifndef FLOCKLIFT_TOOLS_VIEW_SUSPECTS_H_
 #define FLOCKLIFT_TOOLS_VIEW_SUSPECTS_H_
 
-#include <optional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "simulate/core/io.h"
 #include "simulate/core/observations.h"
+#include "simulate/core/progress.h"
+#include "tools/view/cut.h"
 
 namespace flocklift {
 
@@ -27,13 +30,21 @@ struct Suspect {
   int frame = 0;
   Id id = 0;
   Id other_id = 0;   // of a meeting; 0: none
-  std::string what;  // "meeting", "jump", "gap", "start", "end"
+  std::string what;  // "meeting", "jump", "gap", "start", "end"; or the tracker's word
   double doubt = 0;  // in [0, 1]
 };
 
-// At most `most` of them, most doubt first; equal doubt by frame, then id.
-std::vector<Suspect> FindSuspects(const Tracks& tracks, double image_width, double image_height,
-                                  std::size_t most = 500);
+// At most `most` of them, most doubt first; equal doubt by frame, then id. `alive` may throw, to
+// end it.
+std::vector<Suspect> FindSuspects(const TrackList& tracks, double image_width, double image_height,
+                                  const Progress& alive = {}, std::size_t most = 500);
+
+// The tracker's own list, `figures.suspicious` of its summary, in its order; doubt is its chance of
+// a mistake. What a correction has dealt with is not in it: its tracks within half a second of it,
+// two that were joined, one that was deleted. Later doubts follow the ids that swaps and joins
+// gave.
+std::vector<Suspect> SuspectsOfTracker(const nlohmann::ordered_json& list,
+                                       const std::vector<Correction>& corrections);
 
 }  // namespace flocklift
 

@@ -31,11 +31,11 @@ bool SameRows(const Tracklet& a, const Tracklet& b) {
                     });
 }
 
-bool HasRowIn(const Tracklet& tracklet, int frame) {
-  const auto& d = tracklet.detections;
-  const auto at = std::lower_bound(d.begin(), d.end(), frame,
-                                   [](const Detection& a, int f) { return a.frame < f; });
-  return at != d.end() && at->frame == frame;
+template <typename Map>
+TrackList ListOf(const Map& tracks) {
+  TrackList list;
+  for (const auto& [id, tracklet] : tracks) list.push_back(tracklet);
+  return list;
 }
 
 // Ends of lines, the last line's included; 0 stands for nothing of the text.
@@ -92,12 +92,14 @@ std::string LineOf(const Correction& c) {
   return {};
 }
 
-TrackEditor::TrackEditor(const Tracks& tracks, int frame_count, CorrectionsFile file)
-    : first_(tracks), fps_(tracks.fps), frame_count_(frame_count), file_(std::move(file)) {
-  for (const Tracklet& tracklet : tracks.tracklets) {
-    tracks_.emplace(tracklet.id, tracklet);
-    next_id_ = std::max(next_id_, tracklet.id + 1);
+TrackEditor::TrackEditor(const TrackList& tracks, std::optional<double> fps, int frame_count,
+                         CorrectionsFile file)
+    : fps_(fps), frame_count_(frame_count), file_(std::move(file)) {
+  for (const auto& tracklet : tracks) {
+    next_id_ = std::max(next_id_, tracklet->id + 1);
+    tracks_.emplace(tracklet->id, tracklet);
   }
+  first_ = tracks_;
   for (const Correction& correction : file_.pending) done_.push_back(Change(correction));
 }
 
@@ -114,16 +116,13 @@ TrackEditor::Step TrackEditor::Change(const Correction& correction) {
   const auto take = [&](Id id) {
     const auto found = tracks_.find(id);
     if (found != tracks_.end() && step.before.emplace(id, found->second).second) {
-      named.tracklets.push_back(found->second);
+      named.tracklets.push_back(*found->second);
     }
   };
   if (correction.kind == Kind::kAdd) {  // it is as large as the others of the frame
-    for (const auto& [id, tracklet] : tracks_) {
-      if (HasRowIn(tracklet, correction.first_frame)) named.tracklets.push_back(tracklet);
-    }
-    if (named.tracklets.empty()) {
-      for (const auto& [id, tracklet] : tracks_) named.tracklets.push_back(tracklet);
-    }
+    const int frame = correction.first_frame;
+    named = Cut(Current(), frame, frame);
+    if (named.tracklets.empty()) named = Result();
   } else {
     take(correction.id);
     if (correction.kind == Kind::kSwap || correction.kind == Kind::kJoin) {
@@ -137,7 +136,8 @@ TrackEditor::Step TrackEditor::Change(const Correction& correction) {
     const bool is_new = tracklet.id >= next_id_;
     if (!is_new && !step.before.contains(tracklet.id)) continue;  // looked at only
     step.after.push_back(tracklet.id);
-    tracks_[tracklet.id] = std::move(tracklet);
+    const Id id = tracklet.id;
+    tracks_[id] = std::make_shared<const Tracklet>(std::move(tracklet));
   }
   next_id_ = next_id;
   touched_ = step.after;
@@ -147,20 +147,24 @@ TrackEditor::Step TrackEditor::Change(const Correction& correction) {
 
 TrackEditor::Step TrackEditor::ChangeFromTheStart(const Correction& correction) {
   Step step{.correction = correction, .before = {}, .after = {}, .next_id_before = next_id_};
-  std::vector<Correction> in_force;
-  for (const Step& done : done_) in_force.push_back(done.correction);
+  std::vector<Correction> in_force = Corrections();
   in_force.push_back(correction);
-  Tracks now = first_;
+  Tracks now = AsTracks(ListOf(first_));
+  now.fps = fps_;
   Id next_id = 1;
   ApplyCorrections(in_force, file_.path.string(), frame_count_, &now, &next_id);
-  std::map<Id, Tracklet> left = std::move(tracks_);
+  TrackMap left = std::move(tracks_);
   tracks_.clear();
   for (Tracklet& tracklet : now.tracklets) {
     const auto found = left.find(tracklet.id);
-    const bool is_same = found != left.end() && SameRows(found->second, tracklet);
-    if (is_same) left.erase(found);
-    if (!is_same) step.after.push_back(tracklet.id);
-    tracks_[tracklet.id] = std::move(tracklet);
+    const Id id = tracklet.id;
+    if (found != left.end() && SameRows(*found->second, tracklet)) {
+      tracks_[id] = std::move(found->second);
+      left.erase(found);
+      continue;
+    }
+    step.after.push_back(id);
+    tracks_[id] = std::make_shared<const Tracklet>(std::move(tracklet));
   }
   step.before = std::move(left);
   next_id_ = next_id;
@@ -212,17 +216,23 @@ bool TrackEditor::Redo() {
 }
 
 Tracks TrackEditor::Result() const {
-  Tracks tracks;
+  Tracks tracks = AsTracks(Current());
   tracks.fps = fps_;
-  tracks.tracklets.reserve(tracks_.size());
-  for (const auto& [id, tracklet] : tracks_) tracks.tracklets.push_back(tracklet);
   return tracks;
 }
+
+TrackList TrackEditor::Current() const { return ListOf(tracks_); }
 
 std::vector<std::string> TrackEditor::Lines() const {
   std::vector<std::string> lines;
   for (const Step& step : done_) lines.push_back(LineOf(step.correction));
   return lines;
+}
+
+std::vector<Correction> TrackEditor::Corrections() const {
+  std::vector<Correction> corrections;
+  for (const Step& step : done_) corrections.push_back(step.correction);
+  return corrections;
 }
 
 std::vector<const Correction*> TrackEditor::InForce() const {

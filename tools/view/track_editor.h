@@ -10,11 +10,14 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "simulate/core/io.h"
 #include "simulate/core/observations.h"
+#include "tools/view/cut.h"
 
 namespace flocklift {
 
@@ -37,7 +40,8 @@ std::string LineOf(const Correction& correction);
 class TrackEditor {
  public:
   // Applies what is pending in the file; throws as ApplyCorrections does.
-  TrackEditor(const Tracks& tracks, int frame_count, CorrectionsFile file);
+  TrackEditor(const TrackList& tracks, std::optional<double> fps, int frame_count,
+              CorrectionsFile file);
 
   // Writes the file, then changes the tracks; throws InputError and changes nothing when the
   // correction does not fit. What was undone cannot be redone after it.
@@ -47,18 +51,21 @@ class TrackEditor {
   bool Redo();
 
   Tracks Result() const;
+  TrackList Current() const;  // the same without a copy
   std::size_t track_count() const { return tracks_.size(); }
   // The lines that are in force besides those applied before, and how many can be redone.
   std::vector<std::string> Lines() const;
+  std::vector<Correction> Corrections() const;
   std::size_t redo_count() const { return undone_.size(); }
   // Ids that the last change made, changed or removed.
   const std::vector<Id>& touched() const { return touched_; }
 
  private:
+  using TrackMap = std::map<Id, std::shared_ptr<const Tracklet>>;
   struct Step {
     Correction correction;
-    std::map<Id, Tracklet> before;  // of the tracks it changed
-    std::vector<Id> after;          // ids that it changed or made
+    TrackMap before;        // of the tracks it changed
+    std::vector<Id> after;  // ids that it changed or made
     Id next_id_before = 1;
   };
   Step Change(const Correction& correction);
@@ -67,11 +74,11 @@ class TrackEditor {
   void WriteFile(const std::vector<const Correction*>& corrections) const;
   std::vector<const Correction*> InForce() const;
 
-  const Tracks first_;  // as they were before the corrections in force
+  TrackMap first_;  // as they were before the corrections in force
   std::optional<double> fps_;
   int frame_count_;
   CorrectionsFile file_;
-  std::map<Id, Tracklet> tracks_;
+  TrackMap tracks_;
   Id next_id_ = 1;
   std::vector<Step> done_;
   std::vector<Correction> undone_;  // the one to redo first at the back

@@ -29,7 +29,7 @@ Trajectories Two() {
 
 AnimalList Listed() {
   AnimalList animals;
-  for (const Id id : {7, 2, 7, 5}) animals.Add(id);
+  for (const Id id : {2, 5, 2, 7}) animals.Add(id);
   return animals;
 }
 
@@ -41,10 +41,23 @@ std::vector<T> Take(const std::string& bytes, std::size_t* at, std::size_t count
   return values;
 }
 
-TEST(AnimalList, IsByIdWithoutRepeats) {
-  EXPECT_EQ(Listed().ids(), (std::vector<Id>{2, 5, 7}));
-  EXPECT_EQ(Listed().IndexOf(7), 2u);
-  EXPECT_THROW(Listed().IndexOf(3), std::invalid_argument);
+TEST(AnimalList, KeepsThePlacesOfThoseWhoWereThere) {
+  AnimalList animals = Listed();
+  EXPECT_EQ(animals.ids(), (std::vector<Id>{2, 5, 7}));
+  EXPECT_EQ(animals.IndexOf(7), 2u);
+  EXPECT_THROW(animals.IndexOf(3), std::invalid_argument);
+  animals.Add(3);
+  animals.Add(7);
+  EXPECT_EQ(animals.ids(), (std::vector<Id>{2, 5, 7, 3}));
+}
+
+TEST(FrameTable, IsByPlaceWhereIdsCameInAnotherOrder) {
+  AnimalList animals;
+  for (const Id id : {7, 2}) animals.Add(id);
+  const TrajectoryTable table = TableOf(Two(), animals);
+  EXPECT_EQ(table.rows.animal, (std::vector<std::uint32_t>{0, 0, 1, 1}));
+  EXPECT_EQ(table.position[3], 4.f);
+  EXPECT_EQ(table.position[6], 40.f);
 }
 
 TEST(FrameTable, IsByFrameThenAnimal) {

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <sstream>
+#include <string>
+#include <utility>
 
 namespace flocklift {
 namespace {
@@ -26,7 +29,7 @@ Tracklet Along(Id id, int first, int last, const std::function<Vec2d(int)>& at) 
 std::vector<Suspect> Find(std::vector<Tracklet> tracklets) {
   Tracks tracks;
   tracks.tracklets = std::move(tracklets);
-  return FindSuspects(tracks, kWidth, kHeight);
+  return FindSuspects(Shared(std::move(tracks)), kWidth, kHeight);
 }
 
 TEST(Suspects, SmoothTracksThatKeepApartAreFine) {
@@ -113,6 +116,63 @@ TEST(Suspects, BirthsAndDeathsInTheMiddleOfThePicture) {
   EXPECT_EQ(found[1].what, "end");
   EXPECT_EQ(found[1].id, 4);
   EXPECT_EQ(found[1].frame, 50);
+}
+
+std::vector<Correction> Corrections(const std::string& lines) {
+  std::istringstream stream(lines);
+  return ReadCorrections(stream, "lines");
+}
+
+const nlohmann::ordered_json& Doubts() {
+  static const auto kDoubts = nlohmann::ordered_json::parse(R"([
+    {"frame": 100, "last_frame": 104, "kind": "swap", "ids": [3, 7], "chance": 0.5},
+    {"frame": 300, "last_frame": 300, "kind": "jump", "ids": [7], "chance": 0.4},
+    {"frame": 310, "kind": "from another version"},
+    {"frame": 400, "last_frame": 420, "kind": "merge", "ids": [7, 9], "chance": 0.3}])");
+  return kDoubts;
+}
+
+std::string TextOf(const std::vector<Suspect>& suspects) {
+  std::string text;
+  for (const Suspect& s : suspects) {
+    text += s.what + ' ' + std::to_string(s.id) + ' ' + std::to_string(s.other_id) + ' ' +
+            std::to_string(s.frame) + "; ";
+  }
+  return text;
+}
+
+TEST(SuspectsOfTracker, AreItsListInItsOrder) {
+  const auto all = SuspectsOfTracker(Doubts(), {});
+  EXPECT_EQ(TextOf(all), "swap 3 7 100; jump 7 0 300; merge 7 9 400; ");
+  EXPECT_EQ(all[0].doubt, 0.5);
+  EXPECT_TRUE(SuspectsOfTracker(nlohmann::ordered_json::array(), {}).empty());
+}
+
+TEST(SuspectsOfTracker, LeaveOutWhatWasDealtWith) {
+  const auto after = [](const std::string& lines) {
+    return TextOf(SuspectsOfTracker(Doubts(), Corrections(lines)));
+  };
+  // After the swap, what was 7 is called 3.
+  EXPECT_EQ(after("swap 7 3 102\n"), "jump 3 0 300; merge 3 9 400; ");
+  EXPECT_EQ(after("swap 7 3 350\n"), "swap 3 7 100; jump 7 0 300; merge 3 9 400; ");
+  EXPECT_EQ(after("swap 1 3 102\n"), "swap 3 7 100; jump 7 0 300; merge 7 9 400; ");
+  EXPECT_EQ(after("delete 7\n"), "");
+  EXPECT_EQ(after("delete 7 290 310\n"), "swap 3 7 100; merge 7 9 400; ");
+  EXPECT_EQ(after("split 7 305\n"), "swap 3 7 100; merge 7 9 400; ");
+  EXPECT_EQ(after("pin 9 430 10 20\n"), "swap 3 7 100; jump 7 0 300; ");
+  EXPECT_EQ(after("join 9 7\n"), "swap 3 9 100; jump 9 0 300; ");
+  EXPECT_EQ(after("add 300 1 2\n"), "swap 3 7 100; jump 7 0 300; merge 7 9 400; ");
+}
+
+TEST(Suspects, CanBeEndedInTheMiddle) {
+  struct Ended {};
+  Tracks tracks;
+  tracks.tracklets = {Along(1, 1, 60, [](int f) { return Vec2d{5.0 * f, 200}; })};
+  EXPECT_THROW(FindSuspects(Shared(std::move(tracks)), kWidth, kHeight,
+                            [](std::int64_t done, std::int64_t) {
+                              if (done == 30) throw Ended();
+                            }),
+               Ended);
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ class Editor : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   TrackEditor Open(const std::string& applied = "") const {
-    return {Four(), kFrames, ReadCorrectionsFile(path_, applied)};
+    return {Shared(Four()), Four().fps, kFrames, ReadCorrectionsFile(path_, applied)};
   }
   // What track --corrections makes of the file.
   std::string AsTheCommandDoes() const {

@@ -7,6 +7,9 @@ const base = new URL('.', location.href);
 
 export const address = (path: string): string => new URL(path, base).href;
 
+// The server heard, and said no.
+export class Refusal extends Error {}
+
 async function checked(response: Response): Promise<Response> {
   if (response.ok) return response;
   let reason = `the server answers ${response.status}`;
@@ -15,7 +18,7 @@ async function checked(response: Response): Promise<Response> {
   } catch {
     // no words in it
   }
-  throw new Error(reason);
+  throw new Refusal(reason);
 }
 
 export async function getJson<T>(path: string): Promise<T> {

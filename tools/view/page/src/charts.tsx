@@ -113,7 +113,8 @@ export function Charts({ run }: { run: Run }) {
     let askedFlock = '';
     const ask = async () => {
       const state = run.store.get();
-      const nowFlock = `${state.table} ${run.versions.after}`;
+      const { after, curves } = run.versions;
+      const nowFlock = `${state.table} ${after} ${curves}`;
       const now = `${nowFlock} ${state.selected}`;
       if (now === asked) return;
       asked = now;

@@ -16,6 +16,7 @@ import { Space } from './space';
 import { isShown } from './state';
 
 const MOST_VERTICES = 240000;
+const MORE = 4000; // animals that may turn up in frames that were not looked at
 
 export class FlightView {
   readonly space: Space;
@@ -24,6 +25,8 @@ export class FlightView {
   private trails = new Lines(MOST_VERTICES, 0.7);
   private bars = new Lines(40000, 0.85);
   private ring: THREE.Mesh;
+  private seen = new Int32Array(0); // of each animal: the frame of its trail's end, and where
+  private place = new Float32Array(0);
   readonly wingspan: number;
 
   constructor(
@@ -37,7 +40,7 @@ export class FlightView {
     );
     const stated = parseFloat(String(s.solve.values.wingspan ?? ''));
     this.wingspan = stated > 0 ? stated : 0.6;
-    const most = run.animals.length + 1000;
+    const most = run.animals.length + MORE;
     this.birds = new Birds(most);
     this.ghosts = new Birds(most, 0.35);
     this.ring = new THREE.Mesh(
@@ -134,21 +137,32 @@ export class FlightView {
   private drawTrails(frame: number): void {
     const state = this.run.store.get();
     this.trails.begin();
+    const animals = this.run.animals.length;
+    if (this.seen.length < animals) {
+      this.seen = new Int32Array(2 * animals);
+      this.place = new Float32Array(6 * animals);
+    }
     const flock = this.run.flock();
-    const last = new Map<number, [number, Float32Array]>();
+    const { seen, place } = this;
+    seen.fill(-1000);
     const budget = Math.floor(MOST_VERTICES / 2 / Math.max(this.run.animals.length, 1));
     const length = Math.min(state.trails, budget);
     for (let f = frame - length; f <= frame && length > 0; f++) {
-      const rows = flock.at(Math.max(f, this.run.clock.first));
+      const rows = flock.near(Math.max(f, this.run.clock.first));
       if (!rows) continue;
+      const { position } = rows;
       this.forEach(rows, f, (r, animal) => {
-        const p = rows.position.subarray(3 * r, 3 * r + 3);
-        const before = last.get(animal);
-        if (before && f - before[0] <= 4) {
-          const [a, b, c] = before[1];
-          this.trails.add(a, b, c, p[0], p[1], p[2], colourOf(animal, state.dark));
+        if (animal >= seen.length) return;
+        const [x, y, z] = [position[3 * r], position[3 * r + 1], position[3 * r + 2]];
+        const at = 3 * animal;
+        if (f - seen[animal] <= 4) {
+          this.trails.add(place[at], place[at + 1], place[at + 2], x, y, z,
+            colourOf(animal, state.dark));
         }
-        last.set(animal, [f, p]);
+        seen[animal] = f;
+        place[at] = x;
+        place[at + 1] = y;
+        place[at + 2] = z;
       });
     }
     this.trails.end();

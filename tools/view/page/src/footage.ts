@@ -219,7 +219,7 @@ export class FootageView {
     const last = new Map<number, [number, number]>();
     const lines = new Map<number, [number, number][]>();
     for (let f = frame - state.trails; f <= frame; f++) {
-      const rows = this.run.boxes.at(Math.max(f, this.run.clock.first));
+      const rows = this.run.boxes.near(Math.max(f, this.run.clock.first));
       if (!rows) continue;
       const [begin, end] = rowsOf(rows, f);
       for (let r = begin; r < end; r++) {

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Windows of rows as the server packs them (tools/view/frame_table.h), and a cache of them: asking
-// for a frame that is not there yet fetches its window and those that will be needed next.
+// for a frame that is not there yet fetches its window and those that will be needed next. Of a
+// large flock a window takes a while: then the frame comes by itself at first, and its window when
+// the person stays near it.
+
+import { Refusal } from './api';
 
 export interface Rows {
   first: number;
@@ -61,10 +65,20 @@ export function rowOf(rows: Rows, frame: number, animal: number): number {
 
 export type Fetch = (first: number, last: number) => Promise<ArrayBuffer>;
 
+const LARGE = 64; // windows of fewer frames are those of a large flock
+const REST = 60; // ms near a place before its windows are fetched
+
 export class FrameCache<T extends Rows> {
   private windows = new Map<number, T>(); // by number; in the order of their last use
   private pending = new Set<number>();
+  private refused = new Map<number, unknown>(); // windows that are damaged
+  private stale = new Set<number>(); // windows of before, in sight until the new have come
   private generation = 0;
+  private glimpse: T | undefined; // one frame
+  private glimpsing = false;
+  private wanted = new Set<number>(); // once the person stays
+  private place = -1; // the window of the frame last asked for
+  private timer = 0;
 
   constructor(
     private length: number, // frames of a window
@@ -74,12 +88,28 @@ export class FrameCache<T extends Rows> {
     private most = 24,
   ) {}
 
-  // The window of a frame, if it is here; else it is on its way.
+  // The rows of a frame and more, if they are here; else they are on their way.
   at(frame: number): T | undefined {
+    const number = Math.floor(frame / this.length);
+    if (number !== this.place) {
+      this.place = number;
+      this.wanted.clear();
+      clearTimeout(this.timer);
+      this.timer = 0;
+    }
+    const found = this.near(frame);
+    if (found) return found;
+    if (this.refused.has(number)) this.failed(this.refused.get(number));
+    else if (this.length < LARGE) this.look(frame);
+    const { glimpse } = this;
+    return glimpse && glimpse.first === frame ? glimpse : undefined;
+  }
+  // The same of a frame beside the one that matters.
+  near(frame: number): T | undefined {
     const number = Math.floor(frame / this.length);
     const found = this.windows.get(number);
     if (!found) {
-      this.fetch(number);
+      this.want(number);
       return undefined;
     }
     this.windows.delete(number);
@@ -89,22 +119,54 @@ export class FrameCache<T extends Rows> {
   // As at(), and gets what comes after it ready.
   ahead(frame: number): T | undefined {
     const found = this.at(frame);
-    const next = Math.floor(frame / this.length) + 1;
-    if (!this.windows.has(next)) this.fetch(next);
+    this.want(Math.floor(frame / this.length) + 1);
     return found;
   }
   // What was fetched is of before; it stays in sight until the new has come.
   renew(): void {
     this.generation++;
     this.pending.clear();
+    this.refused.clear();
+    this.glimpse = undefined;
     const old = [...this.windows.keys()];
     const wanted = old.slice(-3);
     for (const number of old) if (!wanted.includes(number)) this.windows.delete(number);
+    this.stale = new Set(wanted);
     for (const number of wanted) this.fetch(number);
   }
 
+  private want(number: number): void {
+    if (this.windows.has(number) || this.pending.has(number) || this.refused.has(number)) return;
+    // While it plays, the next window is fetched in time; after a jump, when the person stays.
+    if (this.length >= LARGE || this.windows.has(this.place)) return this.fetch(number);
+    this.wanted.add(number);
+    this.timer ||= window.setTimeout(() => {
+      this.timer = 0;
+      this.fetch(this.place);
+      for (const n of this.wanted) this.fetch(n);
+      this.wanted.clear();
+    }, REST);
+  }
+
+  // One frame at a time, the latest that is asked for.
+  private look(frame: number): void {
+    if (this.glimpsing || this.glimpse?.first === frame) return;
+    this.glimpsing = true;
+    const generation = this.generation;
+    this.fetchWindow(frame, frame)
+      .then((bytes) => {
+        if (generation === this.generation) this.glimpse = unpack(bytes) as Rows as T;
+      })
+      .catch((error: unknown) => this.failed(error))
+      .finally(() => {
+        this.glimpsing = false;
+        this.loaded();
+      });
+  }
+
   private fetch(number: number): void {
-    if (this.pending.has(number) || number < 0) return;
+    if (this.pending.has(number) || this.windows.has(number) && !this.stale.has(number)) return;
+    if (number < 0) return;
     this.pending.add(number);
     const generation = this.generation;
     const first = number * this.length;
@@ -112,6 +174,7 @@ export class FrameCache<T extends Rows> {
       .then((bytes) => {
         if (generation !== this.generation) return;
         this.windows.set(number, unpack(bytes) as Rows as T);
+        this.stale.delete(number);
         this.pending.delete(number);
         while (this.windows.size > this.most) {
           this.windows.delete(this.windows.keys().next().value as number);
@@ -119,7 +182,9 @@ export class FrameCache<T extends Rows> {
         this.loaded();
       })
       .catch((error: unknown) => {
+        if (generation !== this.generation) return;
         this.pending.delete(number);
+        if (error instanceof Refusal) this.refused.set(number, error);
         this.failed(error);
       });
   }

@@ -16,13 +16,14 @@ import { ScenePage } from './scenePage';
 import { exportedSource, serverSource, type Source } from './source';
 import { Store } from './state';
 import { applyTheme, systemIsDark } from './theme';
-import type { Edits, Session, SolveNews, Versions } from './types';
+import type { Edits, Reading, Session, SolveNews, Versions } from './types';
 
 const store = new Store({
   mode: 'look', frame: 1, playing: false, speed: 1, loop: true, selected: -1, second: -1,
   hovered: -1, hidden: new Set(), solo: false, view: 'orbit', table: 'before', ghost: 'none',
   boxes: true, ids: false, trails: 30, bars: true, grid: true, birdScale: 1, panel: true,
-  help: false, gone: false, message: '', dark: systemIsDark(),
+  help: false, gone: false, message: '', reading: '',
+  faults: [], dark: systemIsDark(),
 });
 
 function showRun(source: Source, root: HTMLElement): void {
@@ -35,6 +36,8 @@ function showRun(source: Source, root: HTMLElement): void {
       data: (versions: Versions) => run.setVersions(versions),
       edits: (edits: Edits) => run.setEdits(edits),
       solve: (news: SolveNews) => run.setSolve(news),
+      suspects: () => void run.askSuspects().catch((error: unknown) => store.fail(error)),
+      reading: (news: Reading) => store.set({ reading: news.text, faults: news.faults }),
     }, (gone) => store.set({ gone }));
   }
   render(<RunPage run={run} />, root);

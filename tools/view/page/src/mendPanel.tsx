@@ -15,6 +15,11 @@ const WORDS: Record<string, string> = {
   gap: 'not seen',
   start: 'begins here',
   end: 'ends here',
+  // the tracker's words
+  swap: 'swapped?',
+  merge: 'behind another',
+  join: 'joined?',
+  break: 'broken off',
 };
 
 export function MendPanel({ run, mending }: { run: Run; mending: Mending }) {

@@ -3,9 +3,9 @@
 //
 // Corrections by clicks: each is a line of the corrections file, sent to the server.
 
-import { getJson, post } from './api';
+import { post } from './api';
 import type { Run } from './run';
-import type { Edits, Suspect, Versions } from './types';
+import type { Edits, Versions } from './types';
 
 export type Tool = 'none' | 'pin' | 'add';
 
@@ -26,13 +26,10 @@ export class Mending {
       this.run.setEdits(answer.edits);
       this.run.setVersions(answer.versions);
       this.run.store.set({ message: '' });
-      await this.refresh();
+      await this.run.askSuspects();
     } catch (error) {
       this.run.store.fail(error);
     }
-  }
-  async refresh(): Promise<void> {
-    this.run.setSuspects(await getJson<Suspect[]>('api/suspects'));
   }
 
   private id(animal: number): string {

@@ -3,13 +3,14 @@
 //
 // A run as the page holds it: data, choices and clock, shared by all of its parts.
 
+import { getJson } from './api';
 import { Clock } from './clock';
 import { FrameCache, type BoxRows, type TrajectoryRows } from './frames';
 import { WINDOW_OF_EXPORT, type Source } from './source';
 import type { Store } from './state';
 import type { Edits, RunSession, SolveNews, Suspect, Versions } from './types';
 
-const ROWS_OF_WINDOW = 60000;
+const ROWS_OF_WINDOW = 20000;
 
 export class Run {
   readonly clock: Clock;
@@ -86,6 +87,10 @@ export class Run {
     this.versions = versions;
     this.animals = versions.animals;
     if (versions.boxes !== before.boxes) this.boxes.renew();
+    if (versions.before !== before.before) {
+      this.before.renew();
+      this.truth.renew();
+    }
     if (versions.after !== before.after) {
       this.after.renew();
       if (before.after === 0 || this.store.get().table === 'before') {
@@ -102,8 +107,8 @@ export class Run {
     this.solve = news;
     this.tell();
   }
-  setSuspects(suspects: Suspect[]): void {
-    this.suspects = suspects;
+  async askSuspects(): Promise<void> {
+    this.suspects = await getJson<Suspect[]>('api/suspects');
     this.tell();
   }
 }

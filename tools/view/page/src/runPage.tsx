@@ -121,6 +121,7 @@ export function RunPage({ run }: { run: Run }) {
   const mode = useValue(store, (s) => s.mode);
   const panel = useValue(store, (s) => s.panel);
   const table = useValue(store, (s) => s.table);
+  const reading = useValue(store, (s) => s.reading);
   const webgl = useMemo(hasWebGL, []);
   const hasFlock = session.has.before || run.versions.after > 0;
 
@@ -139,8 +140,8 @@ export function RunPage({ run }: { run: Run }) {
       const view = new FlightView(space.current, run);
       setScale(`grid ${view.space.gridStep} m`);
     }
-    if (!session.exported && !session.edits.reason) {
-      mending.refresh().catch((error: unknown) => store.fail(error));
+    if (!session.exported && session.has.boxes) {
+      run.askSuspects().catch((error: unknown) => store.fail(error));
     }
   }, []);
 
@@ -157,6 +158,7 @@ export function RunPage({ run }: { run: Run }) {
           </nav>
         )}
         <span class="space" />
+        {reading && <span class="reading" role="status">{reading}</span>}
         <ThemeButton store={store} />
         <button title="panel (m)" onClick={() => store.set({ panel: !panel })}>▤</button>
         <button title="keys (?)" onClick={() => store.set({ help: true })}>?</button>

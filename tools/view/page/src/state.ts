@@ -35,6 +35,8 @@ export interface State {
   help: boolean;
   gone: boolean;
   message: string; // what went wrong last; empty: nothing
+  reading: string; // what the server still reads; empty: nothing
+  faults: string[]; // of the files that it read
   dark: boolean;
 }
 

@@ -17,8 +17,16 @@ export interface CameraInfo {
 
 export interface Versions {
   boxes: number;
+  before: number;
   after: number;
+  curves: number;
   animals: string[];
+}
+
+// What of large files is being read, and what is wrong with them (tools/view/late_reader.h).
+export interface Reading {
+  text: string; // empty: all is read
+  faults: string[];
 }
 
 export interface Edits {

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// node large_test.mjs PROGRAM PACKAGES SCRATCH: the page of a large flock, whose files are not read
+// as a whole before it opens; and the same where a file is damaged.
+
+import assert from 'node:assert/strict';
+import { mkdirSync, rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+
+import { openBrowser, openPage, serve, until } from './harness.mjs';
+
+const BIRDS = 400;
+const FRAMES = 1000;
+const BAD = 700; // the frame that is damaged, in the second run
+
+const [program, packages, scratch] = process.argv.slice(2);
+const browser = await openBrowser(packages);
+rmSync(scratch, { recursive: true, force: true });
+mkdirSync(scratch, { recursive: true });
+const say = (what) => console.log('ok: ' + what);
+
+const depthOf = (bird, frame) => 40 + (bird % 20) + 0.01 * frame;
+const pad = '00000000'; // digits that make the files as large as those of a long film
+function makeFiles(bad) {
+  const tracks = ['# fps=50'];
+  const flight = ['# fps=50', 'frame,id,x,y,z,vx,vy,vz'];
+  for (let f = 1; f <= FRAMES; f++) {
+    for (let b = 1; b <= BIRDS; b++) {
+      const [x, y, z] = [(b % 25) - 12 + 0.001 * f, Math.floor(b / 25) - 8, depthOf(b, f)];
+      const [u, v] = [320 + (500 * x) / z, 180 + (500 * y) / z];
+      tracks.push(`${f},${b},${u.toFixed(4)}${pad},${v.toFixed(4)}${pad},5,4,1,-1,-1,-1`);
+      const depth = f === bad && b === 7 ? 'lost' : z.toFixed(4) + pad;
+      flight.push(`${f},${b},${x.toFixed(4)}${pad},${y}.0,${depth},0.05,0,0.5`);
+    }
+  }
+  writeFileSync(join(scratch, 'tracks.csv'), tracks.join('\n') + '\n');
+  writeFileSync(join(scratch, 'trajectories.csv'), flight.join('\n') + '\n');
+}
+writeFileSync(join(scratch, 'summary.track.json'), JSON.stringify({ command: 'track', version: '0.1.0',
+  options: {}, inputs: [], outputs: [], figures: { suspicious_count: 1, suspicious: [
+    { frame: 500, last_frame: 505, kind: 'swap', ids: [3, 4], x: 1, y: 2, chance: 0.4 }] } }));
+
+const depthAt = (page, bird, frame) => page.evaluate(([b, f]) => {
+  const { run } = window.flocklift;
+  run.clock.go(f);
+  const rows = run.before.at(f);
+  if (!rows) return null;
+  for (let r = rows.start[f - rows.first]; r < rows.start[f - rows.first + 1]; r++) {
+    if (run.animals[rows.animal[r]] === String(b)) return rows.position[3 * r + 2];
+  }
+  return null;
+}, [bird, frame]);
+const loaded = (page) => page.evaluate(() => Boolean(window.flocklift?.run));
+
+makeFiles(0);
+{
+  const server = await serve(program, [scratch]);
+  const { page, complaints } = await openPage(browser, server.address);
+  await until('the page', () => loaded(page));
+  assert.ok(await page.evaluate(() => window.flocklift.run.session.edits.reason.includes('being read')));
+  for (const frame of [1, FRAMES, 500, 37]) {
+    const depth = await until('frame ' + frame, () => depthAt(page, 7, frame));
+    assert.ok(Math.abs(depth - depthOf(7, frame)) < 1e-3, `${depth} in frame ${frame}`);
+  }
+  say('frames are there while the rest is read');
+  await until('the end of reading', () => page.evaluate(() => {
+    const { run } = window.flocklift;
+    return run.edits.reason === '' && run.store.get().reading === '';
+  }));
+  assert.equal(await page.locator('.reading').count(), 0);
+  assert.equal(await page.evaluate(() => window.flocklift.run.animals.length), BIRDS);
+  assert.deepEqual(await page.evaluate(() => window.flocklift.run.store.get().faults), []);
+  await page.keyboard.press('F3');
+  await until('the doubt of the tracker', () => page.getByText('swapped?').isVisible());
+  await page.evaluate(() => window.flocklift.run.clock.go(502));
+  await page.keyboard.press('n');
+  await page.keyboard.press('x');
+  await until('the mend', () => page.getByText(/^swap 3 4 500$/).isVisible());
+  await until('no doubt left', () => page.evaluate(() => window.flocklift.run.suspects.length === 0));
+  await page.keyboard.press('z');
+  await until('the doubt again', () => page.getByText('swapped?').isVisible());
+  say('tracks are mended once they are read');
+  assert.deepEqual(complaints, []);
+  await page.close();
+  assert.equal(await server.stop(), 0);
+}
+
+makeFiles(BAD);
+{
+  const server = await serve(program, [scratch]);
+  const { page, complaints } = await openPage(browser, server.address);
+  await until('the page', () => loaded(page));
+  const line = 2 + (BAD - 1) * BIRDS + 7;
+  await until('the words', () =>
+    page.getByText(`trajectories.csv:${line}: z is \`lost\``).first().isVisible());
+  for (const frame of [BAD - 200, BAD + 200]) {
+    const depth = await until('frame ' + frame, () => depthAt(page, 7, frame));
+    assert.ok(Math.abs(depth - depthOf(7, frame)) < 1e-3);
+  }
+  await page.evaluate((f) => window.flocklift.run.clock.go(f), BAD);
+  await until('the words of the window', async () =>
+    (await page.evaluate(() => window.flocklift.run.store.get().message)).includes(`:${line}: z is`));
+  assert.deepEqual(complaints.filter((text) => !text.includes('400')), []);
+  say('a damaged frame is told by its line, the others are shown');
+  await page.close();
+  assert.equal(await server.stop(), 0);
+}
+await browser.close();
