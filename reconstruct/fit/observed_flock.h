@@ -63,7 +63,7 @@ class ObservedFlock {
     std::vector<double> sd_depth;  // empty when the file has none
   };
   std::uint8_t Flag(int animal, int frame) const;
-  Vec3d Slope(int animal, int frame) const;        // [m/frame]; 0 without a neighbouring frame
+  Vec3d Slope(int animal, int frame) const;  // [m/frame]; 0 without a neighbouring frame
 
   double dt_;
   FrameSpan span_;
