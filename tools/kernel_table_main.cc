@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// flocklift_kernel_table: the second half of tools/kernel_table. Flies the flocks, fits their
+// flocklift_kernel_table, a build target that is not installed: flies the flocks, fits their
 // kernels and writes the table, and the kernels of each first seed beside the true ones.
 
 #include <fmt/format.h>
