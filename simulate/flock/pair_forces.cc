@@ -34,8 +34,8 @@ void SumOne(const Rules& rules, const PairTask<T>& task, std::size_t k, const Vi
   task.neighbours[k] = sum.Neighbours();
 }
 
-// The same with the eight sums of the kernels that go animal by animal (shape_kernel_inl.h,
-// zones_kernel_inl.h): neighbours are those that are felt, and the n-th is added to sum n % 8.
+// The same with the eight sums of the kernel that goes animal by animal (zones_kernel_inl.h):
+// neighbours are those that are felt, and the n-th is added to sum n % 8.
 // Where some are listed apart, either list has an n of its own.
 template <typename T, typename Rules, typename Visit>
 void SumOneOfEight(const Rules& rules, const PairTask<T>& task, std::size_t k, const Visit& visit) {
@@ -60,29 +60,6 @@ void SumOneOfEight(const Rules& rules, const PairTask<T>& task, std::size_t k, c
   task.neighbours[k] = eight[0].Neighbours();
 }
 
-// Likewise in eight sums, by rules that count their neighbours first.
-template <typename T, typename Rules, typename Visit>
-void SumCounted(const Rules& rules, const PairTask<T>& task, std::size_t k, const Visit& visit) {
-  const Bodies<T>& s = task.bodies;
-  const Vec3<T> x = s.Position(k), v = s.Velocity(k);
-  typename Rules::ByTerm counts;
-  visit([&](std::uint32_t j) { rules.Count(s.Position(j) - x, &counts); });
-  const typename Rules::ByTerm gains = rules.Gains(counts);
-  Vec3<T> eight[8] = {};
-  std::size_t n = 0;
-  visit([&](std::uint32_t j) {
-    const Vec3<T> dx = s.Position(j) - x;
-    if (rules.Felt(dx)) eight[n++ % 8] += rules.Pair(gains, dx, s.Velocity(j) - v);
-  });
-  for (std::size_t half = 4; half > 0; half /= 2) {
-    for (std::size_t m = 0; m < half; ++m) eight[m] += eight[m + half];
-  }
-  task.ax[k] = eight[0].x;
-  task.ay[k] = eight[0].y;
-  task.az[k] = eight[0].z;
-  task.neighbours[k] = rules.Neighbours(counts);
-}
-
 template <typename T, typename Rules>
 void SumLists(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
   pool->For(0, static_cast<std::int64_t>(task.bodies.size()), kPairGrain,
@@ -92,11 +69,7 @@ void SumLists(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
                 const auto visit = [&](const auto& neighbour) {
                   for (const std::uint32_t j : (*task.nearest)[k]) neighbour(j);
                 };
-                if constexpr (requires { typename Rules::ByTerm; }) {
-                  SumCounted(rules, task, k, visit);
-                } else {
-                  SumOne(rules, task, k, visit);
-                }
+                SumOne(rules, task, k, visit);
               }
             });
 }
@@ -119,17 +92,13 @@ void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
             }
           });
         };
-        if constexpr (requires { typename Rules::ByTerm; }) {
-          SumCounted(rules, task, k, visit);
-        } else {
-          if constexpr (requires { Rules::ByAnimal(true); }) {
-            if (Rules::ByAnimal(task.sample != nullptr)) {
-              SumOneOfEight(rules, task, k, visit);
-              continue;
-            }
+        if constexpr (requires { Rules::ByAnimal(true); }) {
+          if (Rules::ByAnimal(task.sample != nullptr)) {
+            SumOneOfEight(rules, task, k, visit);
+            continue;
           }
-          SumOne(rules, task, k, visit);
         }
+        SumOne(rules, task, k, visit);
       }
     }
   });
@@ -243,27 +212,6 @@ void SumPairs(const ZoneParameters& p, const KernelVariant* kernel, const PairTa
 }
 
 template <typename T>
-void SumPairs(const ShapePairNumbers& n, const KernelVariant* kernel, const PairTask<T>& task,
-              ThreadPool* pool) {
-  if constexpr (std::is_same_v<T, float>) {
-    if (kernel != nullptr && task.nearest == nullptr) {
-      const ShapeJob job{.pairs = MakeJob(task, Reach(n)),
-                         .r_rep = F(n.r_rep),
-                         .r_ali = F(n.r_ali),
-                         .r_att = F(n.r_att),
-                         .w_rep = F(n.w_rep),
-                         .w_ali = F(n.w_ali),
-                         .w_att = F(n.w_att),
-                         .w_con = F(n.w_con),
-                         .reach = F(n.reach),
-                         .sigma = F(n.sigma)};
-      return SumWith(kernel->shape, job, task.bodies.size(), pool);
-    }
-  }
-  SumScalar(MakeShapePairs<T>(n), task, pool);
-}
-
-template <typename T>
 void SumPairs(const SteerParameters& p, const KernelVariant* kernel, const PairTask<T>& task,
               ThreadPool* pool) {
   if constexpr (std::is_same_v<T, float>) {
@@ -324,8 +272,6 @@ NeighbourLists FindNearest(const Bodies<T>& bodies, int count, ThreadPool* pool)
   template void SumPairs(const BoidsParameters<double>&, const KernelVariant*, const PairTask<T>&, \
                          ThreadPool*);                                                             \
   template void SumPairs(const ZoneParameters&, const KernelVariant*, const PairTask<T>&,          \
-                         ThreadPool*);                                                             \
-  template void SumPairs(const ShapePairNumbers&, const KernelVariant*, const PairTask<T>&,        \
                          ThreadPool*);                                                             \
   template void SumPairs(const SteerParameters&, const KernelVariant*, const PairTask<T>&,         \
                          ThreadPool*);                                                             \

@@ -24,7 +24,6 @@
 #include "simulate/flock/cell_grid.h"
 #include "simulate/flock/herd.h"
 #include "simulate/flock/kernels/kernels.h"
-#include "simulate/flock/shape_pairs.h"
 #include "simulate/flock/steer_pairs.h"
 #include "simulate/flock/zone_pairs.h"
 
@@ -62,9 +61,6 @@ void SumPairs(const BoidsParameters<double>& p, const KernelVariant* kernel,
               const PairTask<T>& task, ThreadPool* pool);
 template <typename T>
 void SumPairs(const ZoneParameters& p, const KernelVariant* kernel, const PairTask<T>& task,
-              ThreadPool* pool);
-template <typename T>
-void SumPairs(const ShapePairNumbers& n, const KernelVariant* kernel, const PairTask<T>& task,
               ThreadPool* pool);
 template <typename T>
 void SumPairs(const SteerParameters& p, const KernelVariant* kernel, const PairTask<T>& task,

@@ -16,8 +16,10 @@
 #include "simulate/flock/obstacle_field.h"
 #include "simulate/flock/pair_forces.h"
 #include "simulate/flock/shape_pairs.h"
+#include "simulate/flock/shape_sums.h"
 #include "simulate/flock/shape_targets.h"
 #include "simulate/flock/streams.h"
+#include "simulate/flock/verlet_lists.h"
 #include "simulate/forces/drag.h"
 #include "simulate/forces/shape_distance.h"
 
@@ -26,6 +28,7 @@ namespace {
 
 constexpr double kRangeGain = 0.3;    // of the way to the wanted number of neighbours, a step
 constexpr double kRangeChange = 0.1;  // at most, of the range, a step
+constexpr double kSkin = 0.25;        // of the reach, that lists of neighbours hold beyond it
 
 const ShapeInTime& FindShape(const MotionContext& context) {
   for (const ShapeInTime& shape : context.world->shapes) {
@@ -73,8 +76,7 @@ class ShapeMotion final : public Motion<T> {
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
     const double spacing = targets_.Spacing(around.time);
     const ShapePairNumbers numbers = MakeShapePairNumbers(p_, spacing, range_);
-    herd->SortBy(std::max(Reach(numbers), forces_.Reach()), pool);
-    SumPairs<T>(numbers, kernel_, TaskOf(herd), pool);
+    SumNeighbours(numbers, pool, herd);
     AdaptRange(spacing, *herd);
     forces_.Add(around, pool, herd);
     const std::vector<Vec3d>& target = targets_.At(around.time);
@@ -92,10 +94,12 @@ class ShapeMotion final : public Motion<T> {
   }
   void Save(StateWriter* out) const override {
     out->Put(range_);
+    lists_.Save(out);
     forces_.Save(out);
   }
   void Load(StateReader* in) override {
     in->Take(&range_);
+    lists_.Load(in);
     forces_.Load(in);
   }
   Room room() const override { return {0.5 * p_.d_min, 0}; }
@@ -105,6 +109,18 @@ class ShapeMotion final : public Motion<T> {
   double StartRange(double time) const {
     return p_.neighbours > 0 ? std::sqrt(p_.neighbours / 3.14159) * targets_.Spacing(time)
                              : World::kFar;
+  }
+
+  // With a cap, lists of neighbours are kept; without, they would be nearly all pairs. Other terms
+  // may need the order of cells at every step.
+  void SumNeighbours(const ShapePairNumbers& numbers, ThreadPool* pool, Herd<T>* herd) {
+    const bool keep = p_.neighbours > 0 && forces_.Reach() <= 0;
+    if (keep) {
+      lists_.Update(ReachOf<T>(numbers), kernel_, pool, herd);
+    } else {
+      herd->SortBy(std::max(Reach(numbers), forces_.Reach()), pool);
+    }
+    SumPairs<T>(numbers, kernel_, TaskOf(herd), keep ? &lists_ : nullptr, pool, &rows_);
   }
 
   // Towards the range at which animals have p_.neighbours on average; never less than what
@@ -237,7 +253,9 @@ class ShapeMotion final : public Motion<T> {
   ObstacleField obstacles_;
   ForcePasses<T> forces_;
   std::uint32_t noise_seed_;
-  double range_;                                   // of the zones [m]
+  double range_;  // of the zones [m]
+  VerletLists<T> lists_{kSkin};
+  std::vector<BodyRow<T>> rows_;
   std::vector<T> curl_x_, curl_y_, curl_z_;        // curl noise, in the order of the herd
   std::vector<T> target_x_, target_y_, target_z_;  // samples, likewise [m]
 };

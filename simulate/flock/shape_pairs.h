@@ -40,19 +40,17 @@ inline ShapePairNumbers MakeShapePairNumbers(const ShapeParameters& p, double sp
 }
 
 // How far a neighbour can be felt [m]: the Manhattan distance is never less than the Euclidean.
-inline double Reach(const ShapePairNumbers& n) { return std::max({n.r_rep, n.r_att, n.reach}); }
+inline double Reach(const ShapePairNumbers& n) {
+  return std::max({n.r_rep, n.r_ali, n.r_att, n.reach});
+}
 
 // The four terms together. Each is a mean over those that it counts; so neighbours are counted
 // first, and then every pair is one sum of its directions, each with its term's gain over its
 // count. Sums are those of the terms by themselves but for round-off.
 template <typename T>
 struct ShapePairs {
-  // Kernels sum animal by animal (shape_kernel_inl.h).
-  static constexpr bool ByAnimal(bool /*sampled*/) { return true; }
-
   ZoneParams<T, HardEdge> repulsion, alignment, attraction;
   ShapeForce::Params<T, HardEdge> spread;
-  T zone_reach;  // of the widest zone [m]
 
   using Mask = std::remove_cvref_t<decltype(std::declval<T>() < std::declval<T>())>;
   // Which terms count a neighbour.
@@ -64,20 +62,31 @@ struct ShapePairs {
     T repel = T(0.0), align = T(0.0), attract = T(0.0), spread = T(0.0);
   };
 
-  Terms TermsOf(const Vec3<T>& dx) const {
-    const T squared = Dot(dx, dx), manhattan = Manhattan(dx);
+  // The masks of the zones alone; `spreads` is left to the caller.
+  Terms ZonesOf(const T& squared, const Mask& spreads) const {
     const Mask repels = squared < repulsion.r_rep * repulsion.r_rep;
     const Mask within = squared < repulsion.r_ali * repulsion.r_ali;
     const Mask felt = squared <= repulsion.r_att * repulsion.r_att;
-    return {repels, Mask(within ^ repels), Mask(felt ^ within), manhattan < spread.reach};
+    return {repels, Mask(within ^ repels), Mask(felt ^ within), spreads};
   }
-  // Whether any term counts. By Manhattan distance the spreading reaches less far than by Euclid's.
-  Mask Felt(const Vec3<T>& dx) const {
-    return (Dot(dx, dx) <= zone_reach * zone_reach) | (Manhattan(dx) < spread.reach);
+  // What is seen of a neighbour before the gains are known.
+  struct Look {
+    Vec3<T> direction;
+    T squared;  // distance [m^2]
+    T fall;     // of the spreading; 0 beyond its reach
+    Mask spreads;
+  };
+  Look LookAt(const Vec3<T>& dx) const {
+    using std::abs;
+    const T squared = Dot(dx, dx), manhattan = abs(dx.x) + abs(dx.y) + abs(dx.z);
+    const Mask spreads = manhattan < spread.reach;
+    const T share = manhattan * (T(1.0) / spread.sigma);
+    const T fall = Where(spreads, ShapeForce::Fall(T(T(0.5) * share * share)));
+    return {InverseLength(squared) * dx, squared, fall, spreads};
   }
 
-  void Count(const Vec3<T>& dx, ByTerm* counts) const {
-    const Terms terms = TermsOf(dx);
+  void Count(const Look& look, ByTerm* counts) const {
+    const Terms terms = ZonesOf(look.squared, look.spreads);
     counts->repel += Where(terms.repels, T(1.0));
     counts->align += Where(terms.aligns, T(1.0));
     counts->attract += Where(terms.attracts, T(1.0));
@@ -93,20 +102,13 @@ struct ShapePairs {
   static T Neighbours(const ByTerm& counts) { return counts.repel + counts.align + counts.attract; }
 
   // What a neighbour adds to the acceleration.
-  Vec3<T> Pair(const ByTerm& gains, const Vec3<T>& dx, const Vec3<T>& dv) const {
-    const Terms terms = TermsOf(dx);
-    const T share = Manhattan(dx) * (T(1.0) / spread.sigma);
-    const T push = gains.spread * ShapeForce::Fall(T(T(0.5) * share * share));
+  Vec3<T> Pair(const ByTerm& gains, const Vec3<T>& direction, const T& squared, const T& fall,
+               const Vec3<T>& dv) const {
+    const Terms terms = ZonesOf(squared, {});
     const T zone = Where(terms.attracts, gains.attract) - Where(terms.repels, gains.repel);
-    const T along = (zone - Where(terms.spreads, push)) * InverseLength(Dot(dx, dx));
+    const T along = zone - gains.spread * fall;
     const T beside = Where(terms.aligns, gains.align) * InverseLength(Dot(dv, dv));
-    return along * dx + beside * dv;
-  }
-
- private:
-  static T Manhattan(const Vec3<T>& dx) {
-    using std::abs;
-    return abs(dx.x) + abs(dx.y) + abs(dx.z);
+    return along * direction + beside * dv;
   }
 };
 
@@ -118,8 +120,7 @@ ShapePairs<T> MakeShapePairs(const ShapePairNumbers& n) {
   return {zone(n.w_rep),
           zone(n.w_ali),
           zone(n.w_att),
-          {T(n.w_con), T(n.reach), T(n.sigma), HardEdge{}},
-          T(std::max({n.r_rep, n.r_ali, n.r_att}))};
+          {T(n.w_con), T(n.reach), T(n.sigma), HardEdge{}}};
 }
 
 }  // namespace flocklift

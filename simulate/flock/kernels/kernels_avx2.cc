@@ -9,6 +9,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "simulate/flock/kernels/arch.h"
+#include "simulate/flock/kernels/rows_256_inl.h"
 #include "simulate/flock/kernels/set_bits_inl.h"
 
 FLOCKLIFT_KERNEL_ARCH(Avx2, xsimd::fma3<xsimd::avx2>)
@@ -33,6 +34,12 @@ std::uint32_t AppendSetBits(std::uint64_t mask, std::uint32_t base, std::uint32_
 void StoreSetLanes(std::uint64_t mask, const xsimd::batch<float, Avx2>& from, float* to) {
   const __m128i bytes = _mm_cvtsi64_si128(static_cast<long long>(kSetBits.of[mask]));
   _mm256_storeu_ps(to, _mm256_permutevar8x32_ps(from.data, _mm256_cvtepu8_epi32(bytes)));
+}
+
+[[gnu::always_inline]] inline Vec3<xsimd::batch<float, Avx2>> FetchVectors(
+    const float* rows, const std::uint32_t* places) {
+  const EightVectors eight = FetchEight(rows, places);
+  return {eight.x, eight.y, eight.z};
 }
 
 }  // namespace

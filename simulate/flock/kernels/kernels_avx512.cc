@@ -11,6 +11,7 @@
 #include <xsimd/xsimd.hpp>
 
 #include "simulate/flock/kernels/arch.h"
+#include "simulate/flock/kernels/rows_256_inl.h"
 
 FLOCKLIFT_KERNEL_ARCH(Avx512Vl, xsimd::fma3<xsimd::avx2>)
 
@@ -33,6 +34,12 @@ std::uint32_t AppendSetBits(std::uint64_t mask, std::uint32_t base, std::uint32_
 // Writes the lanes of the mask's set bits to `to`, one after the other; may write 8 in all.
 void StoreSetLanes(std::uint64_t mask, const xsimd::batch<float, Avx512Vl>& from, float* to) {
   _mm256_storeu_ps(to, _mm256_maskz_compress_ps(static_cast<__mmask8>(mask), from.data));
+}
+
+[[gnu::always_inline]] inline Vec3<xsimd::batch<float, Avx512Vl>> FetchVectors(
+    const float* rows, const std::uint32_t* places) {
+  const EightVectors eight = FetchEight(rows, places);
+  return {eight.x, eight.y, eight.z};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "simulate/flock/boids.h"
 #include "simulate/flock/integrator.h"
+#include "simulate/flock/kernels/list_kernel_inl.h"
 #include "simulate/flock/kernels/pair_kernel_inl.h"
 #include "simulate/flock/kernels/shape_kernel_inl.h"
 #include "simulate/flock/kernels/zones_kernel_inl.h"
@@ -58,19 +59,20 @@ struct Kernels {
     }
   }
 
-  [[gnu::flatten]] static void Shape(const ShapeJob& job, std::uint32_t first, std::uint32_t last,
-                                     std::uint32_t* /*room*/) {
+  [[gnu::flatten]] static std::uint32_t List(const ListJob& job, std::uint32_t first,
+                                             std::uint32_t last) {
+    return ListTiles<Pack>(job, first, last);
+  }
+
+  [[gnu::flatten]] static void Shape(const ShapeJob& job, std::uint32_t first, std::uint32_t last) {
     const auto zone = [&](float gain) -> ZoneParams<Pack, HardEdge> {
       return {Pack(gain), Pack(job.r_rep), Pack(job.r_ali), Pack(job.r_att), HardEdge{}};
     };
-    const float inner = job.r_rep > job.r_ali ? job.r_rep : job.r_ali;
-    const float widest = inner > job.r_att ? inner : job.r_att;
     const ShapePairs<Pack> rules{zone(job.w_rep),
                                  zone(job.w_ali),
                                  zone(job.w_att),
-                                 {Pack(job.w_con), Pack(job.reach), Pack(job.sigma), HardEdge{}},
-                                 Pack(widest)};
-    SumShapePairs<Pack>(job.pairs, rules, first, last);
+                                 {Pack(job.w_con), Pack(job.reach), Pack(job.sigma), HardEdge{}}};
+    ListedShapes<Pack>(job, rules).Sum(first, last);
   }
 
   [[gnu::flatten]] static void Steer(const SteerJob& job, std::uint32_t first, std::uint32_t last,
@@ -114,7 +116,7 @@ struct Kernels {
   }
 
   static constexpr KernelVariant Named(const char* name, bool (*supported)()) {
-    return {name, supported, Boids, Zones, Shape, Steer, Move};
+    return {name, supported, Boids, Zones, Steer, List, Shape, Move};
   }
 };
 

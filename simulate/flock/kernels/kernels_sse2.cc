@@ -3,9 +3,11 @@
 
 #include <emmintrin.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <xsimd/xsimd.hpp>
 
+#include "simulate/core/vec3.h"
 #include "simulate/flock/kernels/arch.h"
 
 FLOCKLIFT_KERNEL_ARCH(Sse2, xsimd::sse2)
@@ -36,6 +38,16 @@ void StoreSetLanes(std::uint64_t mask, const xsimd::batch<float, Sse2>& from, fl
     to[count] = lanes[k];
     count += static_cast<std::uint32_t>(mask >> k) & 1U;
   }
+}
+
+// Numbers 0, 1 and 2 of the rows places[0 .. 3], which have 8 numbers each.
+[[gnu::always_inline]] inline Vec3<xsimd::batch<float, Sse2>> FetchVectors(
+    const float* rows, const std::uint32_t* places) {
+  const auto row = [&](int n) { return _mm_loadu_ps(rows + std::size_t{8} * places[n]); };
+  const __m128 a = row(0), b = row(1), c = row(2), d = row(3);
+  const __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);  // x x y y
+  const __m128 z = _mm_movelh_ps(_mm_unpackhi_ps(a, b), _mm_unpackhi_ps(c, d));
+  return {_mm_movelh_ps(ab, cd), _mm_movehl_ps(cd, ab), z};
 }
 
 }  // namespace

@@ -20,20 +20,19 @@
 namespace flocklift {
 namespace {
 
-constexpr std::uint32_t kEight = 8;  // sums of a term
+constexpr std::uint32_t kEight = 8;  // sums of a term; numbers of a list's unit
 
-// Up to kRoom candidates of a tile, in the order of the sort: 3 columns, where they are, or 6, with
-// their velocities.
-template <typename Pack, std::uint32_t kRoom, int kColumns>
+// Up to kRoom candidates of a tile, in the order of the sort, and where they are.
+template <typename Pack, std::uint32_t kRoom>
 class NearBlock {
  public:
   static constexpr std::uint32_t kColumn = kRoom + 2 * kEight;
 
   std::uint32_t count() const { return count_; }
-  // x, y, z, vx, vy, vz: the next is kColumn further. From their end to the end of its pack x is no
-  // number, so that nobody is near.
+  // x, y, z: the next is kColumn further. From their end to the end of its pack x is no number, so
+  // that nobody is near.
   const float* columns() const { return columns_[0]; }
-  // Where they are in the job's arrays; of 3 columns.
+  // Where they are in the job's arrays.
   const std::uint32_t* numbers() const { return numbers_; }
 
   // All lanes of the pack of candidates from number q on but that of animal a of the tile, which is
@@ -93,7 +92,6 @@ class NearBlock {
   void AppendNear(const PairJob& job, std::uint32_t first, std::uint32_t last, const Interval* box,
                   const Felt& felt, const Flush& flush) {
     const float *const px = job.x, *const py = job.y, *const pz = job.z;
-    const float *const pvx = job.vx, *const pvy = job.vy, *const pvz = job.vz;
     std::size_t count = count_;
     for (std::uint32_t j = first; j < last; j += kLanes) {
       if (count + kLanes > kRoom) {
@@ -110,29 +108,22 @@ class NearBlock {
       StoreSetLanes(mask, x, columns_[0] + count);
       StoreSetLanes(mask, y, columns_[1] + count);
       StoreSetLanes(mask, z, columns_[2] + count);
-      if constexpr (kColumns == 6) {
-        StoreSetLanes(mask, Pack::load_unaligned(pvx + j), columns_[3] + count);
-        StoreSetLanes(mask, Pack::load_unaligned(pvy + j), columns_[4] + count);
-        StoreSetLanes(mask, Pack::load_unaligned(pvz + j), columns_[5] + count);
-        count += static_cast<std::size_t>(__builtin_popcountll(mask));
-      } else {
-        count += AppendSetBits(mask, j, numbers_ + count);
-      }
+      count += AppendSetBits(mask, j, numbers_ + count);
     }
     count_ = static_cast<std::uint32_t>(count);
   }
   void AppendOne(const PairJob& job, const TileOf& tile, std::uint32_t j) {
-    const float* const from[6] = {job.x, job.y, job.z, job.vx, job.vy, job.vz};
-    for (int k = 0; k < kColumns; ++k) columns_[k][count_] = from[k][j];
-    if constexpr (kColumns == 3) numbers_[count_] = j;
+    const float* const from[3] = {job.x, job.y, job.z};
+    for (int k = 0; k < 3; ++k) columns_[k][count_] = from[k][j];
+    numbers_[count_] = j;
     if (j - tile.first < tile.last - tile.first) self_[j - tile.first] = count_;
     ++count_;
   }
 
   std::uint32_t count_ = 0;
   std::uint32_t self_[kLanes];  // where the tile's own animals are
-  alignas(64) float columns_[kColumns][kColumn];
-  std::uint32_t numbers_[kColumns == 3 ? kColumn : 1] = {};
+  alignas(64) float columns_[3][kColumn];
+  std::uint32_t numbers_[kColumn] = {};
 };
 
 // Eight sums to one: k and k + 4, then k and k + 2, then both. For four animals, whose sums begin

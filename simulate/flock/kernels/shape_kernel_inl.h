@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The pairs of a shape-constrained swarm (simulate/flock/shape_pairs.h); included once by each
-// variant, as near_block_inl.h.
+// The pairs of a shape-constrained swarm (simulate/flock/shape_pairs.h) from lists of neighbours
+// (simulate/flock/near_lists.h); included once by each variant, after it has defined, besides what
+// near_block_inl.h asks for,
+//   Vec3<batch> FetchVectors(rows, places)   x, y, z of a pack of rows of 8 numbers, by number
 //
-// A tile's animals are taken one after the other, lanes holding neighbours: on a surface few of a
-// tile's candidates are within reach of each of its animals, and tiles are seldom full. Candidates
-// are copied side by side in blocks. For each block all animals' neighbours are sifted out and
-// counted first and summed afterwards: gains depend on the counts, and what was just stored in
-// small pieces is slow to load. Where one block does not hold all, the blocks are gone through
-// twice. Neighbour n of an animal, in the order of the sort, is added to sum n % 8 of eight;
-// pair_forces.cc does the same without packs.
+// Animals are taken a group at a time: the neighbours of all are fetched and counted, gains follow
+// from the counts, and shares are summed. Both loops run over the lists' units of eight, whoever's
+// they are: a loop of its own for each animal, two units as a rule, would end in a wrong guess of
+// the processor. Neighbour n of a list is added to sum n % 8 of eight; shape_sums.cc does the same
+// without packs.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_KERNELS_SHAPE_KERNEL_INL_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_KERNELS_SHAPE_KERNEL_INL_H_
@@ -21,222 +21,147 @@
 
 #include "simulate/flock/kernels/kernels.h"
 #include "simulate/flock/kernels/near_block_inl.h"
-#include "simulate/flock/kernels/pair_kernel_inl.h"
 #include "simulate/flock/shape_pairs.h"
 
 namespace flocklift {
 namespace {
 
 template <typename Pack>
-class ShapeTile {
+class ListedShapes {
  public:
-  ShapeTile(const PairJob& job, const ShapePairs<Pack>& rules) : job_(job), rules_(rules) {}
+  ListedShapes(const ShapeJob& job, const ShapePairs<Pack>& rules) : job_(job), rules_(rules) {}
 
-  void Sum(const TileOf& tile) {
-    tile_ = tile;
-    for (std::uint32_t a = 0; a < Size(); ++a) animals_[a].left_count = 0;
-    for (auto& counts : counts_) Pack(0.0f).store_aligned(counts);
-    int blocks = 0;
-    Collect([&](bool last) {
-      SiftAll();
-      CountAll();
-      if (++blocks == 1 && last) {
-        SetGains();
-        AddAll(true, true);
-      }
-    });
-    if (blocks > 1) {
+  void Sum(std::uint32_t first, std::uint32_t last) {
+    for (first_ = first; first_ < last; first_ += animals_) {
+      animals_ = last - first_ < kGroup ? last - first_ : kGroup;
+      const std::uint32_t* const begins = job_.begin + (first_ - first);
+      const std::uint32_t begin = *begins;
+      while (animals_ > 1 && begins[animals_] - begin > kGroupPlaces) animals_ = (animals_ + 1) / 2;
+      Count(begin, begins[animals_]);
       SetGains();
-      bool first = true;
-      Collect([&](bool last) {
-        SiftAll();
-        AddAll(first, last);
-        first = false;
-      });
+      Add(begin, begins[animals_]);
+      Finish();
     }
-    Finish();
   }
 
  private:
   using ByTerm = typename ShapePairs<Pack>::ByTerm;
   static constexpr std::uint32_t kLanes = Pack::size, kParts = kEight / kLanes;
-  static constexpr std::uint32_t kBlock = 128, kColumn = NearBlock<Pack, kBlock, 6>::kColumn;
+  static constexpr std::uint32_t kRow = 8, kVelocity = 4;      // numbers of a row; from there on
+  static constexpr std::uint32_t kGroup = 32;                  // animals at most, as well as
+  static constexpr std::uint32_t kGroupPlaces = 100 * kEight;  // or one: what is kept fits in L1
+  static constexpr std::uint32_t kKept = 5 * kLanes;           // numbers of a Look
 
-  struct Animal {
-    alignas(32) float sums[3][kEight];
-    alignas(32) float left[6][kEight];  // neighbours too few for a pack, for the next block
-    std::uint32_t left_count;
-    std::uint32_t begin, end;  // in near_
-  };
-
-  std::uint32_t Size() const { return tile_.last - tile_.first; }
-
-  template <typename Use>
-  void Collect(const Use& use) {
-    block_.Collect(
-        job_, tile_, [this](const Vec3<Pack>& dx) { return rules_.Felt(dx); }, use);
-  }
-
-  static void Copy(const float* from, float* to) {  // eight
-    for (std::uint32_t part = 0; part < kEight; part += kLanes) {
-      Pack::load_unaligned(from + part).store_unaligned(to + part);
-    }
+  Vec3<Pack> Own(std::uint32_t animal, std::uint32_t from) const {
+    const float* const row = job_.rows + std::size_t{kRow} * animal + from;
+    return {Pack(row[0]), Pack(row[1]), Pack(row[2])};
   }
 
   // The steps are functions of their own: inlined into one another they run out of registers.
 
-  // Lists what is left of the last block and the animals of this one that are within reach, and
-  // behind them such as are not, up to the end of a pack.
-  [[gnu::noinline]] void SiftAll() {
-    const Pack beyond(2 * job_.reach + 1);  // no term reaches as far
-    std::uint32_t begin = 0;
-    for (std::uint32_t a = 0; a < Size(); ++a) {
-      Animal& animal = animals_[a];
-      animal.begin = begin;
-      if (animal.left_count > 0) {
-        for (int k = 0; k < 6; ++k) Copy(animal.left[k], near_[k] + begin);
-      }
-      animal.end = Sift(a, begin + animal.left_count);
-      for (std::uint32_t part = 0; part < kEight; part += kLanes) {
-        beyond.store_unaligned(near_[0] + animal.end + part);
-      }
-      const std::uint32_t unit = begin / kEight;
-      begin = (animal.end + kEight - 1) / kEight * kEight;
-      owner_[unit] = owner_[unit + 1] = a;
-      for (std::uint32_t u = unit + 2; u < begin / kEight; ++u) owner_[u] = a;
+  [[gnu::noinline]] void Count(std::uint32_t begin, std::uint32_t end) {
+    for (auto& counts : counted_) counts = {};
+    const ShapePairs<Pack> rules = rules_;
+    float* kept = job_.looks;
+    for (std::uint32_t n = begin; n < end; n += kLanes, kept += kKept) {
+      const std::uint32_t owner = job_.owner[n / kEight];
+      const auto look = rules.LookAt(FetchVectors(job_.rows, job_.places + n) - Own(owner, 0));
+      look.direction.x.store_aligned(kept);
+      look.direction.y.store_aligned(kept + kLanes);
+      look.direction.z.store_aligned(kept + 2 * kLanes);
+      look.squared.store_aligned(kept + 3 * kLanes);
+      look.fall.store_aligned(kept + 4 * kLanes);
+      const auto terms = rules.ZonesOf(look.squared, look.spreads);
+      const auto count = [](const auto& mask) {
+        return static_cast<std::uint32_t>(__builtin_popcountll(LaneMask(mask)));
+      };
+      Counted& counts = counted_[owner - first_];
+      counts.repel += count(terms.repels);
+      counts.align += count(terms.aligns);
+      counts.attract += count(terms.attracts);
+      counts.spread += count(terms.spreads);
     }
-    units_ = begin / kEight;
-  }
-  std::uint32_t Sift(std::uint32_t a, std::uint32_t begin) {
-    const std::uint32_t at = tile_.first + a, count = block_.count();
-    const Pack x(job_.x[at]), y(job_.y[at]), z(job_.z[at]);
-    const float* const from = block_.columns();
-    std::size_t end = begin;
-    for (std::size_t q = 0; q < count; q += kLanes) {
-      const auto load = [&](std::size_t k) { return Pack::load_aligned(from + k * kColumn + q); };
-      const Vec3<Pack> dx{load(0) - x, load(1) - y, load(2) - z};
-      const std::uint64_t mask = LaneMask(rules_.Felt(dx)) & block_.Others(a, q);
-      StoreSetLanes(mask, dx.x, near_[0] + end);
-      StoreSetLanes(mask, dx.y, near_[1] + end);
-      StoreSetLanes(mask, dx.z, near_[2] + end);
-      for (std::size_t k = 3; k < 6; ++k) StoreSetLanes(mask, load(k), near_[k] + end);
-      end += static_cast<std::size_t>(__builtin_popcountll(mask));
-    }
-    return static_cast<std::uint32_t>(end);
-  }
-
-  [[gnu::noinline]] void CountAll() {
-    for (std::uint32_t a = 0; a < Size(); ++a) {
-      std::uint32_t counts[4] = {};
-      for (std::uint32_t q = animals_[a].begin; q < animals_[a].end; q += kLanes) {
-        const auto load = [&](int k) { return Pack::load_aligned(near_[k] + q); };
-        const auto terms = rules_.TermsOf({load(0), load(1), load(2)});
-        const auto count = [](const auto& mask) {
-          return static_cast<std::uint32_t>(__builtin_popcountll(LaneMask(mask)));
-        };
-        counts[0] += count(terms.repels);
-        counts[1] += count(terms.aligns);
-        counts[2] += count(terms.attracts);
-        counts[3] += count(terms.spreads);
-      }
-      for (int n = 0; n < 4; ++n) counts_[n][a] += static_cast<float>(counts[n]);
+    for (std::uint32_t a = 0; a < kGroup; ++a) {
+      counts_[0][a] = static_cast<float>(counted_[a].repel);
+      counts_[1][a] = static_cast<float>(counted_[a].align);
+      counts_[2][a] = static_cast<float>(counted_[a].attract);
+      counts_[3][a] = static_cast<float>(counted_[a].spread);
     }
   }
 
-  ByTerm Counts() const {
-    return {Pack::load_aligned(counts_[0]), Pack::load_aligned(counts_[1]),
-            Pack::load_aligned(counts_[2]), Pack::load_aligned(counts_[3])};
+  ByTerm Counts(std::uint32_t a) const {
+    return {Pack::load_aligned(counts_[0] + a), Pack::load_aligned(counts_[1] + a),
+            Pack::load_aligned(counts_[2] + a), Pack::load_aligned(counts_[3] + a)};
   }
   void SetGains() {
-    const ByTerm gains = rules_.Gains(Counts());
-    gains.repel.store_aligned(gains_[0]);
-    gains.align.store_aligned(gains_[1]);
-    gains.attract.store_aligned(gains_[2]);
-    gains.spread.store_aligned(gains_[3]);
+    for (std::uint32_t a = 0; a < kGroup; a += kLanes) {
+      const ByTerm gains = rules_.Gains(Counts(a));
+      gains.repel.store_aligned(gains_[0] + a);
+      gains.align.store_aligned(gains_[1] + a);
+      gains.attract.store_aligned(gains_[2] + a);
+      gains.spread.store_aligned(gains_[3] + a);
+    }
   }
 
-  // What every neighbour adds, eight after eight; then each animal's sums of them: of whole eights,
-  // and at the end of the tile of all that is left.
-  void AddAll(bool first, bool last) {
-    ComputeShares();
-    for (std::uint32_t a = 0; a < Size(); ++a) {
-      Animal& animal = animals_[a];
-      const std::uint32_t rest = last ? 0 : (animal.end - animal.begin) % kEight;
-      Add((animal.end - rest - animal.begin + kEight - 1) / kEight, first, &animal);
-      animal.left_count = rest;
-      for (int k = 0; k < 6 && rest > 0; ++k) Copy(near_[k] + animal.end - rest, animal.left[k]);
-    }
-  }
-  [[gnu::noinline]] void ComputeShares() {
-    const float* const velocity[3] = {job_.vx + tile_.first, job_.vy + tile_.first,
-                                      job_.vz + tile_.first};
-    const ShapePairs<Pack> rules = rules_;
-    for (std::uint32_t u = 0; u < units_; ++u) {
-      const std::uint32_t a = owner_[u];
-      const Vec3<Pack> own{Pack(velocity[0][a]), Pack(velocity[1][a]), Pack(velocity[2][a])};
-      const ByTerm gains{Pack(gains_[0][a]), Pack(gains_[1][a]), Pack(gains_[2][a]),
-                         Pack(gains_[3][a])};
-      for (std::uint32_t q = u * kEight; q < (u + 1) * kEight; q += kLanes) {
-        const auto load = [&](int k) { return Pack::load_aligned(near_[k] + q); };
-        const Vec3<Pack> share = rules.Pair(gains, {load(0), load(1), load(2)},
-                                            Vec3<Pack>{load(3), load(4), load(5)} - own);
-        share.x.store_aligned(share_[0] + q);
-        share.y.store_aligned(share_[1] + q);
-        share.z.store_aligned(share_[2] + q);
+  [[gnu::noinline]] void Add(std::uint32_t begin, std::uint32_t end) {
+    for (auto& sums : sums_) {
+      for (auto& axis : sums) {
+        for (std::uint32_t part = 0; part < kEight; part += kLanes) {
+          Pack(0.0f).store_aligned(axis + part);
+        }
       }
     }
-  }
-  void Add(std::uint32_t units, bool first, Animal* animal) {
-    const std::uint32_t one = units > 0 ? animal->begin : kNothing,
-                        two = units > 1 ? animal->begin + kEight : kNothing;
-    for (std::uint32_t axis = 0; axis < 3; ++axis) {
-      for (std::uint32_t part = 0; part < kEight; part += kLanes) {
-        const float* const share = share_[axis] + part;
-        Pack sum = Pack::load_aligned(share + one);
-        if (!first) sum = Pack::load_aligned(animal->sums[axis] + part) + sum;
-        sum += Pack::load_aligned(share + two);
-        for (std::uint32_t u = 2; u < units; ++u) {
-          sum += Pack::load_aligned(share + animal->begin + u * kEight);
-        }
-        sum.store_aligned(animal->sums[axis] + part);
+    const ShapePairs<Pack> rules = rules_;
+    const float* kept = job_.looks;
+    for (std::uint32_t n = begin; n < end; n += kEight) {
+      const std::uint32_t owner = job_.owner[n / kEight], a = owner - first_;
+      const Vec3<Pack> v = Own(owner, kVelocity);
+      const ByTerm gains{Pack(gains_[0][a]), Pack(gains_[1][a]), Pack(gains_[2][a]),
+                         Pack(gains_[3][a])};
+      for (std::uint32_t part = 0; part < kEight; part += kLanes, kept += kKept) {
+        const auto load = [kept](std::uint32_t k) { return Pack::load_aligned(kept + k * kLanes); };
+        const Vec3<Pack> share =
+            rules.Pair(gains, {load(0), load(1), load(2)}, load(3), load(4),
+                       FetchVectors(job_.rows + kVelocity, job_.places + n + part) - v);
+        const auto add = [part](const Pack& value, float* sum) {
+          (Pack::load_aligned(sum + part) + value).store_aligned(sum + part);
+        };
+        add(share.x, sums_[a][0]);
+        add(share.y, sums_[a][1]);
+        add(share.z, sums_[a][2]);
       }
     }
   }
 
   void Finish() {
     alignas(64) float total[3][kLanes];
-    for (std::uint32_t a = 0; a < kLanes; a += 4) {
-      for (std::uint32_t axis = 0; axis < 3; ++axis) {
-        Fold(animals_[a].sums[axis], sizeof(Animal) / sizeof(float), total[axis] + a);
+    for (std::uint32_t a = 0; a < animals_; a += kLanes) {
+      for (std::uint32_t four = 0; four < kLanes; four += 4) {
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+          Fold(sums_[a + four][axis], 3 * kEight, total[axis] + four);
+        }
       }
+      const std::uint32_t end = a + kLanes < animals_ ? a + kLanes : animals_;
+      const TileOf tile{first_ + a, first_ + end, 0};
+      Store(Pack::load_aligned(total[0]), tile, job_.ax);
+      Store(Pack::load_aligned(total[1]), tile, job_.ay);
+      Store(Pack::load_aligned(total[2]), tile, job_.az);
+      Store(rules_.Neighbours(Counts(a)), tile, job_.neighbours);
     }
-    Store(Pack::load_aligned(total[0]), tile_, job_.ax);
-    Store(Pack::load_aligned(total[1]), tile_, job_.ay);
-    Store(Pack::load_aligned(total[2]), tile_, job_.az);
-    Store(rules_.Neighbours(Counts()), tile_, job_.neighbours);
   }
 
-  const PairJob& job_;
-  const ShapePairs<Pack> rules_;
-  TileOf tile_{};
-  NearBlock<Pack, kBlock, 6> block_;
-  static constexpr std::uint32_t kRoom = kLanes * (kBlock + 2 * kEight);
-  static constexpr std::uint32_t kNothing = kRoom;   // a place where shares are zeros
-  alignas(64) float near_[6][kRoom] = {};            // dx, velocities; by animal
-  alignas(64) float share_[3][kRoom + kEight] = {};  // of the acceleration; likewise
-  std::uint32_t owner_[kRoom / kEight + 2] = {};     // of every eight
-  std::uint32_t units_ = 0;                          // eights
-  alignas(64) float counts_[4][kLanes],
-      gains_[4][kLanes];  // by animal: repel, align, attract, spread
-  Animal animals_[kLanes] = {};
-};
+  struct Counted {
+    std::uint32_t repel, align, attract, spread;
+  };
 
-template <typename Pack>
-[[gnu::always_inline]] inline void SumShapePairs(const PairJob& job, const ShapePairs<Pack>& rules,
-                                                 std::uint32_t first, std::uint32_t last) {
-  ShapeTile<Pack> sums(job, rules);
-  ForEachTile<Pack>(job, first, last, [&](const TileOf& tile) { sums.Sum(tile); });
-}
+  const ShapeJob& job_;
+  const ShapePairs<Pack> rules_;
+  std::uint32_t first_ = 0, animals_ = 0;  // of the group
+  Counted counted_[kGroup] = {};
+  alignas(64) float counts_[4][kGroup] = {};  // of animals, as of Counted
+  alignas(64) float gains_[4][kGroup] = {};
+  alignas(64) float sums_[kGroup][3][kEight] = {};
+};
 
 }  // namespace
 }  // namespace flocklift

@@ -49,7 +49,7 @@ class ZonesTile {
 
  private:
   static constexpr std::uint32_t kLanes = Pack::size, kParts = kEight / kLanes;
-  static constexpr std::uint32_t kRoom = 192, kColumn = NearBlock<Pack, kRoom, 3>::kColumn;
+  static constexpr std::uint32_t kRoom = 192, kColumn = NearBlock<Pack, kRoom>::kColumn;
   static constexpr std::uint32_t kListRoom = kLanes * (kRoom + kEight) + kEight;
   static_assert(kRoom + kEight <= 256, "places fit in a byte");
   static constexpr std::uint32_t kRows = 9;  // of sums
@@ -269,7 +269,7 @@ class ZonesTile {
   bool fresh_ = true;                              // nothing of the tile has been summed yet
   std::uint8_t places_[kListRoom];                 // in the block: who is close, by animal
   float far_[3][kListRoom], close_[6][kListRoom];  // dx; positions and velocities; by animal
-  NearBlock<Pack, kRoom, 3> block_;
+  NearBlock<Pack, kRoom> block_;
   Animal animals_[kLanes];
 };
 

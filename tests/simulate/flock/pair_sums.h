@@ -7,9 +7,11 @@
 #define FLOCKLIFT_TESTS_SIMULATE_FLOCK_PAIR_SUMS_H_
 
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "simulate/flock/pair_forces.h"
+#include "simulate/flock/shape_sums.h"
 #include "tests/simulate/flock/flocks.h"
 
 namespace flocklift {
@@ -39,10 +41,20 @@ struct SortedFlock {
     std::vector<T> columns[4];
     for (std::vector<T>& column : columns) column.assign(n + Bodies<T>::kPadding, T(-1));
     ThreadPool pool(threads);
-    SumPairs<T>(p, ChooseKernel(kernel),
-                {grid, bodies, columns[0], columns[1], columns[2], columns[3],
-                 rows.empty() ? nullptr : &rows, nearest.empty() ? nullptr : &nearest},
-                &pool);
+    const PairTask<T> task{grid,
+                           bodies,
+                           columns[0],
+                           columns[1],
+                           columns[2],
+                           columns[3],
+                           rows.empty() ? nullptr : &rows,
+                           nearest.empty() ? nullptr : &nearest};
+    if constexpr (std::is_same_v<Parameters, ShapePairNumbers>) {
+      std::vector<BodyRow<T>> room;
+      SumPairs<T>(p, ChooseKernel(kernel), task, nullptr, &pool, &room);
+    } else {
+      SumPairs<T>(p, ChooseKernel(kernel), task, &pool);
+    }
     ByAnimal result{std::vector<Vec3d>(n), std::vector<double>(n)};
     for (std::size_t k = 0; k < n; ++k) {
       const auto d = [&](int c) { return static_cast<double>(columns[c][k]); };

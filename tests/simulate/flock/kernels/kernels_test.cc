@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <type_traits>
+
 #include "tests/simulate/flock/pair_sums.h"
 
 namespace flocklift {
@@ -18,6 +20,7 @@ void ExpectVariantsGiveTheSameBytes(const Parameters& p, bool headings = false) 
   for (const NamedFlock& plain : ManyFlocks()) {
     const NamedFlock flock = headings ? Headings(plain) : plain;
     for (const std::uint32_t most : {0U, 9U}) {
+      if (most > 0 && std::is_same_v<Parameters, ShapePairNumbers>) continue;  // takes no sample
       const SortedFlock<float> sorted(flock, Reach(p), most);
       const ByAnimal expected = sorted.Sum(p, "scalar");
       for (const KernelVariant* variant : kKernels) {
@@ -63,8 +66,7 @@ TEST(Kernels, Shape) {
   p.r_ali = 0.7;
   ExpectVariantsGiveTheSameBytes(MakeShapePairNumbers(p, 0.3, 1.0));
   ExpectVariantsGiveTheSameBytes(MakeShapePairNumbers(p, 0.5, 0.2));
-  ExpectVariantsGiveTheSameBytes(
-      MakeShapePairNumbers(p, 0.3, 5.0));  // several blocks of candidates
+  ExpectVariantsGiveTheSameBytes(MakeShapePairNumbers(p, 0.3, 5.0));  // long lists
 }
 
 TEST(Kernels, Steer) {

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "simulate/flock/near_lists.h"
+
+#include <type_traits>
+
+namespace flocklift {
+namespace {
+
+constexpr std::size_t kFill = 8;               // a list's length is a multiple of it
+constexpr double kReachMargin = 1.0001;        // of the kernels' boxes, against rounding
+constexpr double kFarAway = 1e9;               // [m]
+constexpr std::size_t kFirstRoom = 1U << 15U;  // places
+
+template <typename T>
+void ListOne(const typename CellGrid<T>::View& g, const Bodies<T>& s, const NearReach<T>& reach,
+             int b, int c, std::uint32_t k, std::vector<std::uint32_t>* places) {
+  const int a = g.CellX(s.x[k]);
+  CellGrid<T>::ForEachRun(g, a, a, b, c, [&](std::uint32_t first, std::uint32_t last) {
+    for (std::uint32_t j = first; j < last; ++j) {
+      if (j != k && reach.Holds(s.Position(j) - s.Position(k))) places->push_back(j);
+    }
+  });
+  const auto nobody = static_cast<std::uint32_t>(s.size());
+  places->resize((places->size() + kFill - 1) / kFill * kFill, nobody);
+}
+
+template <typename T>
+void ListScalar(const CellGrid<T>& grid, const Bodies<T>& s, const NearReach<T>& reach,
+                std::uint32_t first, std::uint32_t last, NearLists* lists) {
+  const auto g = grid.view();
+  lists->places.resize(lists->begin.back());
+  lists->owner.resize(lists->places.size() / kFill);
+  for (int row = 0; row < g.RowCount(); ++row) {
+    const int b = 1 + row % g.ny, c = 1 + row / g.ny;
+    const std::uint32_t from = std::max(first, g.start[g.Cell(1, b, c)]);
+    const std::uint32_t to = std::min(last, g.start[g.Cell(g.nx, b, c) + 1]);
+    for (std::uint32_t k = from; k < to; ++k) {
+      ListOne(g, s, reach, b, c, k, &lists->places);
+      lists->begin.push_back(static_cast<std::uint32_t>(lists->places.size()));
+      lists->owner.resize(lists->places.size() / kFill, k);
+    }
+  }
+}
+
+// Goes on as long as there is room.
+std::uint32_t ListByKernel(const CellGrid<float>& grid, const Bodies<float>& s,
+                           const NearReach<float>& reach, const KernelVariant& kernel,
+                           std::uint32_t first, std::uint32_t last, NearLists* lists) {
+  thread_local std::vector<std::uint32_t> candidates;
+  thread_local std::vector<float> columns;
+  candidates.resize(std::max(candidates.size(), s.size() + 32));
+  columns.resize(std::max(columns.size(), 3 * (s.size() + 32)));
+  const auto g = grid.view();
+  ListJob job{};
+  job.pairs.start = g.start;
+  job.pairs.low_x = g.low_x;
+  job.pairs.inverse_edge = g.inverse_edge;
+  job.pairs.nx = g.nx;
+  job.pairs.ny = g.ny;
+  job.pairs.nz = g.nz;
+  job.pairs.x = s.x.data();
+  job.pairs.y = s.y.data();
+  job.pairs.z = s.z.data();
+  job.pairs.reach = static_cast<float>(kReachMargin * reach.Farthest());
+  job.straight = reach.straight;
+  job.manhattan = reach.manhattan;
+  job.nobody = static_cast<std::uint32_t>(s.size());
+  job.candidates = candidates.data();
+  job.columns = columns.data();
+  const std::size_t listed = lists->animals();
+  lists->begin.resize(listed + 1 + (last - first));
+  job.begin = lists->begin.data() + listed;
+  job.places = lists->places.data();
+  job.owner = lists->owner.data();
+  job.room = lists->places.size();
+  const std::uint32_t next = kernel.list(job, first, last);
+  lists->begin.resize(listed + 1 + (next - first));
+  if (next < last) {  // the tile that did not fit has at most 8 animals
+    lists->places.resize(2 * lists->places.size() + kFirstRoom);
+    lists->owner.resize(lists->places.size() / kFill);
+  }
+  return next;
+}
+
+}  // namespace
+
+template <typename T>
+std::uint32_t ListNear(const CellGrid<T>& grid, const Bodies<T>& bodies, const NearReach<T>& reach,
+                       const KernelVariant* kernel, std::uint32_t first, std::uint32_t last,
+                       NearLists* lists) {
+  if constexpr (std::is_same_v<T, float>) {
+    if (kernel != nullptr) {
+      return ListByKernel(grid, bodies, reach, *kernel, first, last, lists);
+    }
+  }
+  ListScalar(grid, bodies, reach, first, last, lists);
+  return last;
+}
+
+template <typename T>
+void FillRows(const Bodies<T>& bodies, ThreadPool* pool, std::vector<BodyRow<T>>* rows) {
+  rows->resize(bodies.size() + 1);
+  rows->back() = {T(kFarAway), T(kFarAway), T(kFarAway), T(0), T(0), T(0), T(0), T(0)};
+  pool->For(0, static_cast<std::int64_t>(bodies.size()), kListGrain,
+            [&](std::int64_t first, std::int64_t last) {
+              for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last);
+                   ++k) {
+                (*rows)[k] = {bodies.x[k],  bodies.y[k],  bodies.z[k],  T(0),
+                              bodies.vx[k], bodies.vy[k], bodies.vz[k], T(0)};
+              }
+            });
+}
+
+template std::uint32_t ListNear(const CellGrid<float>&, const Bodies<float>&,
+                                const NearReach<float>&, const KernelVariant*, std::uint32_t,
+                                std::uint32_t, NearLists*);
+template std::uint32_t ListNear(const CellGrid<double>&, const Bodies<double>&,
+                                const NearReach<double>&, const KernelVariant*, std::uint32_t,
+                                std::uint32_t, NearLists*);
+template void FillRows(const Bodies<float>&, ThreadPool*, std::vector<BodyRow<float>>*);
+template void FillRows(const Bodies<double>&, ThreadPool*, std::vector<BodyRow<double>>*);
+
+}  // namespace flocklift

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Who is near whom, written out: for each animal of a sorted swarm the numbers of all others within
+// reach, in the order of the sort. Worth it where a list is used more than once, over several terms
+// or (Verlet lists, simulate/flock/verlet_lists.h) several steps.
+
+#ifndef FLOCKLIFT_SIMULATE_FLOCK_NEAR_LISTS_H_
+#define FLOCKLIFT_SIMULATE_FLOCK_NEAR_LISTS_H_
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "simulate/core/parallel_for.h"
+#include "simulate/flock/bodies.h"
+#include "simulate/flock/cell_grid.h"
+#include "simulate/flock/kernels/kernels.h"
+
+namespace flocklift {
+
+inline constexpr std::int64_t kListGrain = 512;  // animals a chunk of work
+
+// Within reach is who is no farther than `straight`, or nearer than `manhattan` by that distance
+// [m].
+template <typename T>
+struct NearReach {
+  T straight, manhattan;
+
+  bool Holds(const Vec3<T>& dx) const {
+    using std::abs;
+    return Dot(dx, dx) <= straight * straight || abs(dx.x) + abs(dx.y) + abs(dx.z) < manhattan;
+  }
+  // The Manhattan distance is never less than the Euclidean.
+  double Farthest() const { return std::max<double>(straight, manhattan); }
+};
+
+// The lists of consecutive animals, one after the other, each filled up to a multiple of eight with
+// nobody: the number of a row behind the last animal's. An animal's list ends where the next one's
+// begins.
+struct NearLists {
+  std::vector<std::uint32_t> begin;   // one more than there are animals
+  std::vector<std::uint32_t> places;  // at least as many as begin.back(); the rest is room
+  std::vector<std::uint32_t> owner;   // of every eight places: the animal whose list they are of
+
+  void Clear() { begin.assign(1, 0); }
+  std::size_t animals() const { return begin.size() - 1; }
+};
+
+// Appends the lists of the animals from `first` on, up to last - 1 or until `places` is full (then
+// call again: it grows); returns the first that is not listed yet. A null kernel, or a scalar that
+// is not float, goes pair by pair.
+template <typename T>
+std::uint32_t ListNear(const CellGrid<T>& grid, const Bodies<T>& bodies, const NearReach<T>& reach,
+                       const KernelVariant* kernel, std::uint32_t first, std::uint32_t last,
+                       NearLists* lists);
+
+// An animal's state side by side, to be fetched by number; the row of nobody is far away.
+template <typename T>
+struct alignas(8 * sizeof(T)) BodyRow {
+  T x, y, z, none, vx, vy, vz, also_none;
+
+  Vec3<T> Position() const { return {x, y, z}; }
+  Vec3<T> Velocity() const { return {vx, vy, vz}; }
+};
+template <typename T>
+void FillRows(const Bodies<T>& bodies, ThreadPool* pool, std::vector<BodyRow<T>>* rows);
+
+}  // namespace flocklift
+
+#endif  // FLOCKLIFT_SIMULATE_FLOCK_NEAR_LISTS_H_
