@@ -189,6 +189,14 @@ export class FootageView {
     const [begin, end] = rowsOf(rows, frame);
     const px = devicePixelRatio / scale;
     g.font = `600 ${11 * px}px system-ui, sans-serif`;
+    if (state.boxes) {
+      g.beginPath();
+      for (let r = begin; r < end; r++) {
+        const [left, top, w, h] = rows.box.subarray(4 * r, 4 * r + 4);
+        if (isShown(state, rows.animal[r])) g.rect(left, top, w, h);
+      }
+      strokeUnder(g, px);
+    }
     for (let r = begin; r < end; r++) {
       const animal = rows.animal[r];
       if (!isShown(state, animal)) continue;
@@ -232,12 +240,18 @@ export class FootageView {
         last.set(animal, p);
       }
     }
-    g.lineWidth = 1.3 * px;
+    const follow = (line: [number, number][]) =>
+      line.forEach(([x, y], k) => (k === 0 ? g.moveTo(x, y) : g.lineTo(x, y)));
+    g.beginPath();
+    for (const line of lines.values()) follow(line);
+    strokeUnder(g, px);
     g.globalAlpha = 0.8;
     for (const [animal, line] of lines) {
-      g.strokeStyle = animal === state.selected ? '#ffffff' : colourOnFootage(animal);
+      const chosen = animal === state.selected;
+      g.lineWidth = (chosen ? 2 : 1.3) * px;
+      g.strokeStyle = chosen ? '#ffffff' : colourOnFootage(animal);
       g.beginPath();
-      line.forEach(([x, y], k) => (k === 0 ? g.moveTo(x, y) : g.lineTo(x, y)));
+      follow(line);
       g.stroke();
     }
     g.globalAlpha = 1;
@@ -347,6 +361,13 @@ export class FootageView {
       box.top + (t.y + (y + 0.5) * t.scale) / ratio,
     ];
   }
+}
+
+// Light colours are to be seen on a bright sky too: a dark seam lies under them.
+function strokeUnder(g: CanvasRenderingContext2D, px: number): void {
+  g.lineWidth = 2.6 * px;
+  g.strokeStyle = 'rgba(0, 0, 0, 0.45)';
+  g.stroke();
 }
 
 function centreOfBox(rows: BoxRows, r: number): [number, number] {
