@@ -189,21 +189,15 @@ export class FootageView {
     const [begin, end] = rowsOf(rows, frame);
     const px = devicePixelRatio / scale;
     g.font = `600 ${11 * px}px system-ui, sans-serif`;
-    if (state.boxes) {
-      g.beginPath();
-      for (let r = begin; r < end; r++) {
-        const [left, top, w, h] = rows.box.subarray(4 * r, 4 * r + 4);
-        if (isShown(state, rows.animal[r])) g.rect(left, top, w, h);
-      }
-      strokeUnder(g, px);
-    }
     for (let r = begin; r < end; r++) {
       const animal = rows.animal[r];
       if (!isShown(state, animal)) continue;
       const chosen = animal === state.selected || animal === state.second;
       const [left, top, w, h] = rows.box.subarray(4 * r, 4 * r + 4);
-      g.strokeStyle = g.fillStyle = chosen ? '#ffffff' : colourOnFootage(animal);
       if (state.boxes || chosen || animal === state.hovered) {
+        seam(g, px);
+        g.strokeRect(left, top, w, h);
+        g.strokeStyle = chosen ? '#ffffff' : colourOnFootage(animal);
         g.lineWidth = (chosen ? 2.2 : animal === state.hovered ? 2 : 1.2) * px;
         g.setLineDash(rows.confidence[r] < 0.5 ? [4 * px, 3 * px] : []);
         const grow = chosen ? 2 * px : 0;
@@ -214,6 +208,7 @@ export class FootageView {
         const text = this.run.animals[animal] ?? '';
         g.lineWidth = 3 * px;
         g.strokeStyle = 'rgba(0, 0, 0, 0.6)';
+        g.fillStyle = chosen ? '#ffffff' : colourOnFootage(animal);
         g.strokeText(text, left + w + 2 * px, top + 4 * px);
         g.fillText(text, left + w + 2 * px, top + 4 * px);
       }
@@ -240,18 +235,15 @@ export class FootageView {
         last.set(animal, p);
       }
     }
-    const follow = (line: [number, number][]) =>
-      line.forEach(([x, y], k) => (k === 0 ? g.moveTo(x, y) : g.lineTo(x, y)));
-    g.beginPath();
-    for (const line of lines.values()) follow(line);
-    strokeUnder(g, px);
     g.globalAlpha = 0.8;
     for (const [animal, line] of lines) {
       const chosen = animal === state.selected;
+      g.beginPath();
+      line.forEach(([x, y], k) => (k === 0 ? g.moveTo(x, y) : g.lineTo(x, y)));
+      seam(g, px);
+      g.stroke();
       g.lineWidth = (chosen ? 2 : 1.3) * px;
       g.strokeStyle = chosen ? '#ffffff' : colourOnFootage(animal);
-      g.beginPath();
-      follow(line);
       g.stroke();
     }
     g.globalAlpha = 1;
@@ -363,11 +355,11 @@ export class FootageView {
   }
 }
 
-// Light colours are to be seen on a bright sky too: a dark seam lies under them.
-function strokeUnder(g: CanvasRenderingContext2D, px: number): void {
+// Light colours are to be seen on a bright sky too: a dark seam lies under them. (Each line has its
+// own: one path of thousands takes the browser seconds.)
+function seam(g: CanvasRenderingContext2D, px: number): void {
   g.lineWidth = 2.6 * px;
   g.strokeStyle = 'rgba(0, 0, 0, 0.45)';
-  g.stroke();
 }
 
 function centreOfBox(rows: BoxRows, r: number): [number, number] {
