@@ -5,6 +5,7 @@
 // are drawn when their picture is, and a picture that comes late is drawn with its own tracks.
 
 import { colourOnFootage, ground } from './colours';
+import { flatContext } from './graphics';
 import { rowsOf, rowOf, type BoxRows } from './frames';
 import type { Run } from './run';
 import { isShown } from './state';
@@ -136,8 +137,7 @@ export class FootageView {
     } else {
       this.shown = { frame: state.frame, bitmap: null };
     }
-    const g = canvas.getContext('2d');
-    if (!g) return;
+    const g = flatContext(canvas);
     g.setTransform(1, 0, 0, 1, 0, 0);
     g.fillStyle = ground(state.dark).back;
     g.fillRect(0, 0, width, height);

@@ -18,7 +18,7 @@ import { Notices } from './notices';
 import type { Run } from './run';
 import { SketchPanel } from './sketchPanel';
 import { SolvePanel } from './solvePanel';
-import { hasWebGL } from './space';
+import { hasWebGL } from './graphics';
 import { useValue, type Mode, type ViewName } from './state';
 import { ThemeButton, flipTheme } from './theme';
 import { SPEEDS, Transport } from './transport';

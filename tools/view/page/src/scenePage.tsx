@@ -10,7 +10,7 @@ import { listenToKeys, type Key } from './keys';
 import { watchLive } from './live';
 import { LiveCharts, LiveSeries } from './liveCharts';
 import { Notices } from './notices';
-import { hasWebGL } from './space';
+import { hasWebGL } from './graphics';
 import { useValue, type Store, type ViewName } from './state';
 import { SteerPanel, steer } from './steerPanel';
 import { SwarmView } from './swarm';

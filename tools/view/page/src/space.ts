@@ -8,27 +8,10 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 import { ground } from './colours';
+import { drawsInSoftware } from './graphics';
 import { centreOf, poseAt } from './lens';
 import type { ViewName } from './state';
 import type { Bounds, CameraInfo } from './types';
-
-export function hasWebGL(): boolean {
-  try {
-    const canvas = document.createElement('canvas');
-    return canvas.getContext('webgl2') !== null;
-  } catch {
-    return false;
-  }
-}
-
-// Whether the processor draws, for want of a graphics card: then every sample of a pixel is dear.
-function drawsInSoftware(): boolean {
-  const gl = document.createElement('canvas').getContext('webgl2');
-  const names = gl?.getExtension('WEBGL_debug_renderer_info');
-  const name = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
-  gl?.getExtension('WEBGL_lose_context')?.loseContext();
-  return /swiftshader|llvmpipe|software/i.test(name);
-}
 
 // A round length: 1, 2 or 5 times a power of ten, about `length`.
 export function roundLength(length: number): number {
@@ -43,7 +26,6 @@ export class Space {
   readonly camera = new THREE.PerspectiveCamera(45, 1, 0.05, 20000);
   readonly renderer: THREE.WebGLRenderer;
   readonly controls: OrbitControls;
-  private readonly software: boolean;
   readonly centre = new THREE.Vector3(); // of the flock, in the world frame
   extent = 10; // [m]
   gridStep = 1; // [m]
@@ -58,8 +40,7 @@ export class Space {
     upIsUp: boolean,
     private redraw: () => void,
   ) {
-    this.software = drawsInSoftware();
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.software });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware() });
     this.camera.up.set(0, 0, 1);
     if (!upIsUp) {
       // x right, y down, z forward  ->  x right, y forward, z up
@@ -192,7 +173,7 @@ export class Space {
     const height = canvas.clientHeight;
     if (width === 0 || height === 0) return;
     const size = renderer.getSize(new THREE.Vector2());
-    renderer.setPixelRatio(Math.min(devicePixelRatio, this.software ? 1 : 2));
+    renderer.setPixelRatio(Math.min(devicePixelRatio, drawsInSoftware() ? 1 : 2));
     if (size.x !== width || size.y !== height) renderer.setSize(width, height, false);
     renderer.render(this.scene, this.camera);
   }

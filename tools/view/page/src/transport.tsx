@@ -5,11 +5,26 @@
 
 import { useEffect, useRef } from 'preact/hooks';
 
+import { flatContext } from './graphics';
 import { useNews } from './news';
 import type { Run } from './run';
 import { useValue } from './state';
+import type { Suspect } from './types';
 
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
+
+function drawDoubt(canvas: HTMLCanvasElement, run: Run, suspects: Suspect[], dark: boolean): void {
+  const g = flatContext(canvas);
+  canvas.width = canvas.clientWidth * devicePixelRatio;
+  canvas.height = canvas.clientHeight * devicePixelRatio;
+  const length = Math.max(run.clock.end - run.clock.first, 1);
+  for (const { frame, doubt } of suspects) {
+    const x = ((frame - run.clock.first) / length) * canvas.width;
+    const h = Math.max(doubt, 0.12) * canvas.height;
+    g.fillStyle = `rgba(${dark ? '255, 138, 76' : '213, 94, 0'}, ${0.25 + 0.75 * doubt})`;
+    g.fillRect(x - devicePixelRatio, canvas.height - h, 2 * devicePixelRatio, h);
+  }
+}
 
 function DoubtStrip({ run }: { run: Run }) {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -17,18 +32,11 @@ function DoubtStrip({ run }: { run: Run }) {
   const dark = useValue(run.store, (s) => s.dark);
   useEffect(() => {
     const element = canvas.current;
-    const g = element?.getContext('2d');
-    if (!element || !g) return;
-    element.width = element.clientWidth * devicePixelRatio;
-    element.height = element.clientHeight * devicePixelRatio;
-    const length = Math.max(run.clock.end - run.clock.first, 1);
-    for (const { frame, doubt } of suspects) {
-      const x = ((frame - run.clock.first) / length) * element.width;
-      const h = Math.max(doubt, 0.12) * element.height;
-      g.fillStyle = dark ? `rgba(255, 138, 76, ${0.25 + 0.75 * doubt})` : `rgba(213, 94, 0, ${0.25 + 0.75 * doubt})`;
-      g.fillRect(x - devicePixelRatio, element.height - h, 2 * devicePixelRatio, h);
-    }
-  });
+    if (!element) return undefined;
+    const resize = new ResizeObserver(() => drawDoubt(element, run, suspects, dark));
+    resize.observe(element);
+    return () => resize.disconnect();
+  }, [suspects, dark]);
   return <canvas class="doubt" ref={canvas} title="where tracks may be wrong" />;
 }
 
