@@ -4,10 +4,11 @@
 #include "track/luma_decoder.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <cstring>
 #include <thread>
+
+#include "track/spread_luma.h"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -51,15 +52,6 @@ bool IsFullRange(const AVFrame& frame) {
   return frame.color_range == AVCOL_RANGE_JPEG || frame.format == AV_PIX_FMT_GRAY8 ||
          frame.format == AV_PIX_FMT_YUVJ420P || frame.format == AV_PIX_FMT_YUVJ422P ||
          frame.format == AV_PIX_FMT_YUVJ444P;
-}
-
-std::array<std::uint8_t, 256> SpreadTable() {
-  std::array<std::uint8_t, 256> table{};
-  for (int y = 0; y < 256; ++y) {
-    table[y] =
-        static_cast<std::uint8_t>(std::clamp((2 * 255 * (y - 16) + 219) / (2 * 219), 0, 255));
-  }
-  return table;
 }
 
 }  // namespace
@@ -131,7 +123,6 @@ std::unique_ptr<LumaDecoder> LumaDecoder::Open(const std::filesystem::path& path
 }
 
 bool LumaDecoder::Read(GrayImage* image) {
-  static const std::array<std::uint8_t, 256> kSpread = SpreadTable();
   const AVFrame* frame = libav_->Next();
   if (frame == nullptr) return false;
   if (image->width != frame->width || image->height != frame->height) {
@@ -144,7 +135,7 @@ bool LumaDecoder::Read(GrayImage* image) {
     if (is_full) {
       std::memcpy(to, from, static_cast<std::size_t>(frame->width));
     } else {
-      for (int u = 0; u < frame->width; ++u) to[u] = kSpread[from[u]];
+      SpreadLuma(from, frame->width, to);
     }
   }
   return true;
