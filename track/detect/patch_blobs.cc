@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <span>
 
-#include "track/detect/watershed.h"
-
 namespace flocklift {
 namespace {
 
@@ -70,10 +68,9 @@ void PatchCutter::Append(const Component& patch, const ContrastView& view, const
   }
   if (peak < limits.least_peak) return;
 
-  WatershedOptions watershed;
-  watershed.least_dip = std::max(4 * limits.noise, 0.5 * limits.least_peak);
-  int parts = 0;
-  const std::vector<int> part = CutAtSaddles(contrast_, width, height, watershed, &parts);
+  WatershedOptions options;
+  options.least_dip = std::max(4 * limits.noise, 0.5 * limits.least_peak);
+  const int parts = watershed_.Cut(contrast_, width, height, options);
   for (int p = 0; p < parts; ++p) {
     const std::size_t first = found->pixels.size();
     found->pixels.resize(first + static_cast<std::size_t>(patch.area));
@@ -83,7 +80,7 @@ void PatchCutter::Append(const Component& patch, const ContrastView& view, const
       const std::size_t row = static_cast<std::size_t>(run.v - patch.top) * width;
       for (int u = run.first; u <= run.last; ++u) {
         const std::size_t k = row + (u - patch.left);
-        if (part[k] != p) continue;
+        if (parts > 1 && watershed_.part()[k] != p) continue;
         part_peak = std::max(part_peak, contrast_[k]);
         *next++ = {static_cast<float>(u), static_cast<float>(run.v), raw_[k]};
       }

@@ -13,6 +13,7 @@
 #include "track/detect/background.h"
 #include "track/detect/blob.h"
 #include "track/detect/components.h"
+#include "track/detect/watershed.h"
 #include "track/gray_image.h"
 
 namespace flocklift {
@@ -40,6 +41,7 @@ class PatchCutter {
 
  private:
   std::vector<float> contrast_, raw_;  // kept, so that no patch allocates them anew
+  Watershed watershed_;
 };
 
 }  // namespace flocklift

@@ -7,24 +7,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace flocklift {
 namespace {
-
-// A part that grows from its peak downwards; one that was joined to another points to it.
-struct Basin {
-  float peak = 0;
-  double mass = 0;
-  int parent = 0;
-};
-
-int Root(std::vector<Basin>* basins, int k) {
-  while ((*basins)[k].parent != k) {
-    (*basins)[k].parent = (*basins)[(*basins)[k].parent].parent;
-    k = (*basins)[k].parent;
-  }
-  return k;
-}
 
 // Sorts by decreasing contrast, then increasing index: positive floats sort as their bits.
 std::uint64_t KeyOf(float contrast, std::size_t index) {
@@ -32,123 +18,127 @@ std::uint64_t KeyOf(float contrast, std::size_t index) {
          static_cast<std::uint32_t>(index);
 }
 
-// The patch inside a border of zeros, so that every pixel has eight neighbours.
-struct Patch {
-  int stride = 0;
-  std::vector<float> contrast;
-  std::vector<std::uint64_t> keys;  // of the pixels that are not 0
-  float peak = 0, lowest = 0;       // of these
-};
+std::size_t IndexOf(std::uint64_t key) { return static_cast<std::uint32_t>(key); }
 
-Patch Bordered(const std::vector<float>& contrast, int width, int height) {
-  Patch patch;
-  patch.stride = width + 2;
-  patch.contrast.assign(static_cast<std::size_t>(patch.stride) * (height + 2), 0);
-  patch.keys.reserve(contrast.size());
+}  // namespace
+
+void Watershed::SetPatch(const std::vector<float>& contrast, int width, int height) {
+  width_ = width;
+  height_ = height;
+  stride_ = width + 2;
+  contrast_.assign(static_cast<std::size_t>(stride_) * (height + 2), 0);
+  peak_ = 0;
+  lowest_ = std::numeric_limits<float>::infinity();
   for (int v = 0; v < height; ++v) {
+    const float* from = contrast.data() + static_cast<std::size_t>(v) * width;
+    float* to = contrast_.data() + static_cast<std::size_t>(v + 1) * stride_ + 1;
     for (int u = 0; u < width; ++u) {
-      const float value = contrast[static_cast<std::size_t>(v) * width + u];
-      if (value <= 0) continue;
-      const std::size_t k = static_cast<std::size_t>(v + 1) * patch.stride + u + 1;
-      patch.contrast[k] = value;
-      patch.lowest = patch.keys.empty() ? value : std::min(patch.lowest, value);
-      patch.peak = std::max(patch.peak, value);
-      patch.keys.push_back(KeyOf(value, k));
+      to[u] = from[u];
+      if (from[u] <= 0) continue;
+      peak_ = std::max(peak_, from[u]);
+      lowest_ = std::min(lowest_, from[u]);
     }
   }
-  return patch;
 }
 
 // Whether at most one pixel is a peak so high that it could stay apart from a higher one: then
 // nothing is cut.
-bool IsWhole(const Patch& patch, const WatershedOptions& options) {
-  const double least = std::max(patch.lowest + options.least_dip,
-                                patch.lowest / std::max(1 - options.relative_dip, 1e-9));
-  if (patch.peak < least) return true;
+bool Watershed::IsWhole(const WatershedOptions& options) const {
+  const double least =
+      std::max(lowest_ + options.least_dip, lowest_ / std::max(1 - options.relative_dip, 1e-9));
+  if (peak_ < least) return true;
   int peaks = 0;
-  for (const std::uint64_t key : patch.keys) {
-    const float* at = patch.contrast.data() + static_cast<std::uint32_t>(key);
-    if (*at < least) continue;
-    const float* above = at - patch.stride;
-    const float* below = at + patch.stride;
-    const float highest =
-        std::max({at[-1], at[1], above[-1], above[0], above[1], below[-1], below[0], below[1]});
-    if (*at >= highest && ++peaks > 1) return false;
+  for (int v = 1; v <= height_; ++v) {
+    const float* at = contrast_.data() + static_cast<std::size_t>(v) * stride_ + 1;
+    for (const float* end = at + width_; at < end; ++at) {
+      if (*at < least) continue;
+      const float* above = at - stride_;
+      const float* below = at + stride_;
+      const float highest =
+          std::max({at[-1], at[1], above[-1], above[0], above[1], below[-1], below[0], below[1]});
+      if (*at >= highest && ++peaks > 1) return false;
+    }
   }
   return true;
 }
 
-}  // namespace
-
-std::vector<int> CutAtSaddles(const std::vector<float>& contrast, int width, int height,
-                              const WatershedOptions& options, int* parts) {
-  Patch patch = Bordered(contrast, width, height);
-  std::vector<int> part(contrast.size(), -1);
-  const auto index_in_image = [&](std::uint64_t key) {
-    const auto k = static_cast<int>(static_cast<std::uint32_t>(key));
-    return (k / patch.stride - 1) * width + k % patch.stride - 1;
-  };
-  if (IsWhole(patch, options)) {
-    *parts = patch.keys.empty() ? 0 : 1;
-    for (const std::uint64_t key : patch.keys) part[index_in_image(key)] = 0;
-    return part;
+int Watershed::Root(int k) {
+  while (basins_[k].parent != k) {
+    basins_[k].parent = basins_[basins_[k].parent].parent;
+    k = basins_[k].parent;
   }
+  return k;
+}
 
-  std::sort(patch.keys.begin(), patch.keys.end());
-  const int around[] = {-patch.stride - 1, -patch.stride, -patch.stride + 1, -1, 1,
-                        patch.stride - 1,  patch.stride,  patch.stride + 1};
-  std::vector<int> label(patch.contrast.size(), -1);
-  std::vector<Basin> basins;
-  for (const std::uint64_t key : patch.keys) {
-    const auto pixel = static_cast<int>(static_cast<std::uint32_t>(key));
-    const float value = patch.contrast[pixel];
+// Labels all pixels by the basins that they run down to, from the highest to the lowest.
+void Watershed::Flood(const WatershedOptions& options) {
+  keys_.clear();
+  for (std::size_t k = 0; k < contrast_.size(); ++k) {
+    if (contrast_[k] > 0) keys_.push_back(KeyOf(contrast_[k], k));
+  }
+  std::sort(keys_.begin(), keys_.end());
+  const int around[] = {-stride_ - 1, -stride_, -stride_ + 1, -1, 1,
+                        stride_ - 1,  stride_,  stride_ + 1};
+  label_.assign(contrast_.size(), -1);
+  basins_.clear();
+  for (const std::uint64_t key : keys_) {
+    const auto pixel = static_cast<int>(IndexOf(key));
+    const float value = contrast_[pixel];
     int roots[8];
     int count = 0;
     int steepest = -1;
     float steepest_value = 0;
     for (const int step : around) {
       const int neighbor = pixel + step;
-      if (label[neighbor] < 0) continue;
-      const int root = Root(&basins, label[neighbor]);
-      if (patch.contrast[neighbor] > steepest_value) {
-        steepest_value = patch.contrast[neighbor];
+      if (label_[neighbor] < 0) continue;
+      const int root = Root(label_[neighbor]);
+      if (contrast_[neighbor] > steepest_value) {
+        steepest_value = contrast_[neighbor];
         steepest = root;
       }
       if (std::find(roots, roots + count, root) == roots + count) roots[count++] = root;
     }
     if (count == 0) {
-      label[pixel] = static_cast<int>(basins.size());
-      basins.push_back({value, value, label[pixel]});
+      label_[pixel] = static_cast<int>(basins_.size());
+      basins_.push_back({value, value, label_[pixel]});
       continue;
     }
-    label[pixel] = steepest;
-    basins[steepest].mass += value;
+    label_[pixel] = steepest;
+    basins_[steepest].mass += value;
     for (int a = 0; a < count; ++a) {
       for (int b = a + 1; b < count; ++b) {
-        int high = Root(&basins, roots[a]), low = Root(&basins, roots[b]);
+        int high = Root(roots[a]), low = Root(roots[b]);
         if (high == low) continue;
-        if (basins[low].peak > basins[high].peak) std::swap(high, low);
-        const double dip = basins[low].peak - value;
-        const double lighter = std::min(basins[low].mass, basins[high].mass);
-        const double heavier = std::max(basins[low].mass, basins[high].mass);
-        if (dip >= options.relative_dip * basins[low].peak && dip >= options.least_dip &&
+        if (basins_[low].peak > basins_[high].peak) std::swap(high, low);
+        const double dip = basins_[low].peak - value;
+        const double lighter = std::min(basins_[low].mass, basins_[high].mass);
+        const double heavier = std::max(basins_[low].mass, basins_[high].mass);
+        if (dip >= options.relative_dip * basins_[low].peak && dip >= options.least_dip &&
             lighter >= options.least_share * heavier) {
           continue;
         }
-        basins[low].parent = high;
-        basins[high].mass += basins[low].mass;
+        basins_[low].parent = high;
+        basins_[high].mass += basins_[low].mass;
       }
     }
   }
+}
 
-  std::vector<int> number(basins.size(), -1);
-  *parts = 0;
-  for (const std::uint64_t key : patch.keys) {
-    const int root = Root(&basins, label[static_cast<std::uint32_t>(key)]);
-    if (number[root] < 0) number[root] = (*parts)++;
-    part[index_in_image(key)] = number[root];
+int Watershed::Cut(const std::vector<float>& contrast, int width, int height,
+                   const WatershedOptions& options) {
+  SetPatch(contrast, width, height);
+  if (IsWhole(options)) return peak_ > 0 ? 1 : 0;
+  Flood(options);
+  number_.assign(basins_.size(), -1);
+  part_.assign(contrast.size(), -1);
+  int parts = 0;
+  for (const std::uint64_t key : keys_) {
+    const auto k = static_cast<int>(IndexOf(key));
+    const int root = Root(label_[k]);
+    if (number_[root] < 0) number_[root] = parts++;
+    part_[static_cast<std::size_t>(k / stride_ - 1) * width + k % stride_ - 1] = number_[root];
   }
-  return part;
+  return parts;
 }
 
 }  // namespace flocklift

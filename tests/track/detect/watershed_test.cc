@@ -25,18 +25,16 @@ std::vector<float> Contrast(const std::vector<SoftBlob>& blobs) {
 }
 
 int Parts(const std::vector<SoftBlob>& blobs) {
-  int parts = 0;
-  CutAtSaddles(Contrast(blobs), kWidth, kHeight, {}, &parts);
-  return parts;
+  return Watershed().Cut(Contrast(blobs), kWidth, kHeight, {});
 }
 
 TEST(WatershedTest, OnePeakStaysWhole) { EXPECT_EQ(Parts({{.center = {20.3, 11.6}}}), 1); }
 
 TEST(WatershedTest, TwoPeaksWithADeepSaddleAreCut) {
   const std::vector<SoftBlob> blobs{{.center = {15, 12}}, {.center = {22, 12}}};
-  int parts = 0;
-  const std::vector<int> part = CutAtSaddles(Contrast(blobs), kWidth, kHeight, {}, &parts);
-  ASSERT_EQ(parts, 2);
+  Watershed watershed;
+  ASSERT_EQ(watershed.Cut(Contrast(blobs), kWidth, kHeight, {}), 2);
+  const std::vector<int>& part = watershed.part();
   EXPECT_NE(part[12 * kWidth + 15], part[12 * kWidth + 22]);
   // The cut runs half way.
   EXPECT_EQ(part[12 * kWidth + 15], part[12 * kWidth + 17]);
@@ -63,25 +61,31 @@ TEST(WatershedTest, ManyPeaksOfNoiseAreNoParts) {
                             : std::vector<SoftBlob>{{.center = {13, 12}}, {.center = {24, 12}}});
     Rng rng(3);
     for (float& c : contrast) c = c > 0 ? c + static_cast<float>(rng.Uniform(0, 3)) : 0;
-    int parts = 0;
-    CutAtSaddles(contrast, kWidth, kHeight, {}, &parts);
-    EXPECT_EQ(parts, count);
+    EXPECT_EQ(Watershed().Cut(contrast, kWidth, kHeight, {}), count);
   }
 }
 
 TEST(WatershedTest, NothingHasNoPart) {
-  int parts = 1;
-  const std::vector<int> part = CutAtSaddles(std::vector<float>(12, 0.0f), 4, 3, {}, &parts);
-  EXPECT_EQ(parts, 0);
-  EXPECT_EQ(part, std::vector<int>(12, -1));
+  EXPECT_EQ(Watershed().Cut(std::vector<float>(12, 0.0f), 4, 3, {}), 0);
 }
 
 TEST(WatershedTest, PlateausAreOnePeak) {
   std::vector<float> contrast(kWidth * kHeight, 0);
   for (int u = 5; u < 20; ++u) contrast[12 * kWidth + u] = 50;
-  int parts = 0;
-  CutAtSaddles(contrast, kWidth, kHeight, {}, &parts);
-  EXPECT_EQ(parts, 1);
+  EXPECT_EQ(Watershed().Cut(contrast, kWidth, kHeight, {}), 1);
+}
+
+TEST(WatershedTest, OnePatchLeavesNothingToTheNext) {
+  const std::vector<float> three =
+      Contrast({{.center = {8, 12}}, {.center = {16, 12}}, {.center = {24, 12}}});
+  const std::vector<float> two = {30, 5, 40};
+  const WatershedOptions options{.least_share = 0};
+  Watershed fresh, used;
+  used.Cut(three, kWidth, kHeight, options);
+  ASSERT_EQ(used.Cut(two, 3, 1, options), 2);
+  ASSERT_EQ(fresh.Cut(two, 3, 1, options), 2);
+  EXPECT_EQ(used.part(), fresh.part());
+  EXPECT_EQ(used.part(), (std::vector<int>{1, 0, 0}));
 }
 
 TEST(WatershedTest, ThreeInARow) {
