@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -25,17 +26,20 @@ constexpr int kLargePicture = 900;  // rows, of which every second one tells eno
 // is nearest to it.
 class AbsoluteHistogram {
  public:
-  void Add(float value) {
-    ++counts_[static_cast<std::size_t>(std::min(std::abs(value) + 0.5f, kBins - 1.0f))];
-    ++total_;
+  // Values that follow each other mostly fall into one bin: by turns into its halves 0 and 1, so
+  // that none waits for the one before.
+  void Add(float value, std::size_t half) {
+    const int bin = static_cast<int>(std::min(std::abs(value) + 0.5f, kBins - 1.0f));
+    ++counts_[2 * static_cast<std::size_t>(bin) + half];
   }
   double Median() const {
+    const int total = std::accumulate(counts_.begin(), counts_.end(), 0);
     int below = 0;
-    for (std::size_t bin = 0; bin < kBins; ++bin) {
-      const int count = counts_[bin];
-      if (count > 0 && 2L * (below + count) >= total_) {
-        const double share = (0.5 * total_ - below) / count;
-        return bin == 0 ? 0.5 * share : static_cast<double>(bin) - 0.5 + share;
+    for (int bin = 0; bin < kBins; ++bin) {
+      const int count = counts_[2 * bin] + counts_[2 * bin + 1];
+      if (count > 0 && 2L * (below + count) >= total) {
+        const double share = (0.5 * total - below) / count;
+        return bin == 0 ? 0.5 * share : bin - 0.5 + share;
       }
       below += count;
     }
@@ -43,9 +47,8 @@ class AbsoluteHistogram {
   }
 
  private:
-  static constexpr std::size_t kBins = 257;
-  std::array<int, kBins> counts_{};
-  int total_ = 0;
+  static constexpr int kBins = 257;
+  std::array<int, 2 * kBins> counts_{};
 };
 
 constexpr double kSdOfMedianAbsolute = 1.4826;  // of a normal distribution
@@ -57,17 +60,17 @@ using Grid = std::vector<int>;
 // 0 where the weight is, in the lower half, the weight in the upper half.
 using Pairs = std::vector<std::uint64_t>;
 constexpr int kWeightShift = 32;
-float ValueOf(std::uint64_t pair) {
-  return static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(pair)));
+int ValueOf(std::uint64_t pair) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(pair));
 }
-float WeightOf(std::uint64_t pair) {
-  return static_cast<float>(static_cast<std::int32_t>(pair >> kWeightShift));
-}
+int WeightOf(std::uint64_t pair) { return static_cast<std::int32_t>(pair >> kWeightShift); }
 
 // Means over cells of factor x factor pixels; those at the right and the bottom may be smaller.
 Grid CellMeans(const GrayImage& image, int factor, int width, int height) {
   Grid means(static_cast<std::size_t>(width) * height);
   std::vector<std::uint16_t> column(static_cast<std::size_t>(image.width));
+  int last_count = 0;
+  double inverse = 0;
   for (int j = 0; j < height; ++j) {
     std::fill(column.begin(), column.end(), std::uint16_t{0});
     const int top = j * factor, bottom = std::min(top + factor, image.height);
@@ -81,7 +84,10 @@ Grid CellMeans(const GrayImage& image, int factor, int width, int height) {
       int sum = 0;
       for (int u = left; u < right; ++u) sum += column[u];
       const int count = (right - left) * (bottom - top);
-      means[static_cast<std::size_t>(j) * width + i] = (sum + count / 2) / count;
+      if (count != last_count) inverse = 1.0 / (last_count = count);
+      // (sum + count / 2) / count in whole numbers: the half keeps it off the rounding's edge.
+      means[static_cast<std::size_t>(j) * width + i] =
+          static_cast<int>((sum + count / 2 + 0.5) * inverse);
     }
   }
   return means;
@@ -90,12 +96,12 @@ Grid CellMeans(const GrayImage& image, int factor, int width, int height) {
 // Sums over a square of radius r, cut off at the border.
 class BoxSums {
  public:
-  BoxSums(int width, int height)
-      : width_(width), height_(height), before_(static_cast<std::size_t>(width) + 1) {}
+  BoxSums(int width, int height) : width_(width), height_(height) {}
 
   void Compute(const Pairs& pairs, int radius, Pairs* sums) {
     const std::size_t w = static_cast<std::size_t>(width_);
     column_.assign(w, 0);
+    before_.assign(w + 2 * static_cast<std::size_t>(radius) + 1, 0);
     sums->resize(w * height_);
     for (int v = -radius; v < height_; ++v) {
       if (v + radius < height_) {
@@ -112,33 +118,77 @@ class BoxSums {
 
  private:
   void SumAlong(int radius, std::uint64_t* out) {
-    before_[0] = 0;  // the sum of the columns before this one
-    for (int u = 0; u < width_; ++u) before_[u + 1] = before_[u] + column_[u];
+    // The sum of the columns before this one; as far beyond the border as the square reaches.
+    std::uint64_t* before = before_.data() + radius;
+    std::uint64_t sum = 0;
     for (int u = 0; u < width_; ++u) {
-      out[u] = before_[std::min(u + radius + 1, width_)] - before_[std::max(u - radius, 0)];
+      before[u] = sum;
+      sum += column_[u];
     }
+    std::fill(before + width_, before + width_ + radius + 1, sum);
+    for (int u = 0; u < width_; ++u) out[u] = before[u + radius + 1] - before[u - radius];
   }
 
   int width_, height_;
   Pairs column_, before_;
 };
 
-// Takes out the nodes that stand out by more than `limit`, and their neighbours.
-void MaskOutliers(const Grid& values, const std::vector<float>& level, float limit, int width,
-                  int height, Pairs* pairs) {
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    (*pairs)[k] = (std::uint64_t{1} << kWeightShift) + static_cast<std::uint64_t>(values[k]);
-  }
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      const std::size_t k = static_cast<std::size_t>(v) * width + u;
-      if (std::abs(static_cast<float>(values[k]) - level[k]) <= limit) continue;
-      for (int y = std::max(v - 1, 0); y <= std::min(v + 1, height - 1); ++y) {
-        for (int x = std::max(u - 1, 0); x <= std::min(u + 1, width - 1); ++x) {
-          (*pairs)[static_cast<std::size_t>(y) * width + x] = 0;
-        }
+// All nodes, but those that stand out by more than a limit, and their neighbours.
+class OrdinaryNodes {
+ public:
+  OrdinaryNodes(int width, int height)
+      : width_(static_cast<std::size_t>(width)),
+        height_(static_cast<std::size_t>(height)),
+        stride_(width_ + 2),
+        stands_out_(stride_ * (height_ + 2), 0),
+        is_near_(stride_, 0) {}
+
+  void Find(const Grid& values, const std::vector<float>& level, float limit, Pairs* pairs) {
+    for (std::size_t v = 0; v < height_; ++v) {
+      const int* value = values.data() + v * width_;
+      const float* expected = level.data() + v * width_;
+      std::uint8_t* out = stands_out_.data() + (v + 1) * stride_ + 1;
+      for (std::size_t u = 0; u < width_; ++u) {
+        out[u] = std::abs(static_cast<float>(value[u]) - expected[u]) > limit ? 1 : 0;
       }
     }
+    for (std::size_t v = 0; v < height_; ++v) {
+      const std::uint8_t* above = stands_out_.data() + v * stride_;
+      for (std::size_t u = 0; u < stride_; ++u) {
+        is_near_[u] =
+            static_cast<std::uint8_t>(above[u] | above[stride_ + u] | above[2 * stride_ + u]);
+      }
+      const int* value = values.data() + v * width_;
+      std::uint64_t* out = pairs->data() + v * width_;
+      for (std::size_t u = 0; u < width_; ++u) {
+        const int left_out = is_near_[u] | is_near_[u + 1] | is_near_[u + 2];
+        const std::uint64_t all =
+            (std::uint64_t{1} << kWeightShift) + static_cast<unsigned>(value[u]);
+        out[u] = all & (static_cast<std::uint64_t>(left_out) - 1);  // no bit, or each
+      }
+    }
+  }
+
+ private:
+  std::size_t width_, height_, stride_;
+  std::vector<std::uint8_t> stands_out_;  // inside a border of zeros
+  std::vector<std::uint8_t> is_near_;     // of one row: to one of the row itself, above or below
+};
+
+// The means over both squares; the wide one counts where the near one is nearly empty, and where
+// that is empty too the node stands for itself.
+void SetLevels(const Grid& values, const Pairs& near, const Pairs& wide,
+               std::vector<float>* level) {
+  const std::size_t count = values.size();
+  float* out = level->data();
+  for (std::size_t k = 0; k < count; ++k) {
+    const int near_weight = WeightOf(near[k]), wide_weight = WeightOf(wide[k]);
+    const float share = 1.0f / static_cast<float>(std::max(wide_weight, 1));
+    const float value =
+        static_cast<float>(ValueOf(near[k])) + static_cast<float>(ValueOf(wide[k])) * share;
+    const float weight = static_cast<float>(near_weight) + static_cast<float>(wide_weight) * share;
+    const auto empty = static_cast<float>((near_weight | wide_weight) == 0);  // value, weight: 0
+    out[k] = (value + empty * static_cast<float>(values[k])) / (weight + empty);
   }
 }
 
@@ -193,6 +243,7 @@ LocalBackground EstimateBackground(const GrayImage& image, double window, double
   Pairs pairs(values.size()), near, wide;
   const int radius = std::max(1, static_cast<int>(std::lround(0.5 * window / factor)));
   BoxSums sums(width, height);
+  OrdinaryNodes ordinary(width, height);
   std::vector<float>& level = background.level;
   level.assign(values.begin(), values.end());
   float limit = std::numeric_limits<float>::infinity();
@@ -200,22 +251,15 @@ LocalBackground EstimateBackground(const GrayImage& image, double window, double
     if (pass > 0) {
       AbsoluteHistogram residuals;
       for (std::size_t k = 0; k < values.size(); ++k) {
-        residuals.Add(static_cast<float>(values[k]) - level[k]);
+        residuals.Add(static_cast<float>(values[k]) - level[k], k & 1);
       }
       const double sd = kSdOfMedianAbsolute * residuals.Median();
       limit = static_cast<float>(std::max(kMaskSds * sd, least_outlier));
     }
-    MaskOutliers(values, level, limit, width, height, &pairs);
+    ordinary.Find(values, level, limit, &pairs);
     sums.Compute(pairs, radius, &near);
     sums.Compute(pairs, 4 * radius, &wide);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      // The wide window counts where the near one is nearly empty.
-      const float wide_weight = WeightOf(wide[k]);
-      const float share = wide_weight > 0 ? 1.0f / wide_weight : 0.0f;
-      const float value = ValueOf(near[k]) + ValueOf(wide[k]) * share;
-      const float weight = WeightOf(near[k]) + wide_weight * share;
-      level[k] = weight > 0 ? value / weight : static_cast<float>(values[k]);
-    }
+    SetLevels(values, near, wide, &level);
   }
 
   // Noise by tile of about 8 x 6, from one pixel in some.
@@ -238,7 +282,7 @@ LocalBackground EstimateBackground(const GrayImage& image, double window, double
         ++tile;
         tile_end += image.width / tiles_x;
       }
-      tile->Add(static_cast<float>(row[u]) - *levels);
+      tile->Add(static_cast<float>(row[u]) - *levels, u / 4 % 2);
     }
   }
   cv::Mat tiles(tiles_y, tiles_x, CV_32F);
