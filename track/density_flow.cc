@@ -148,7 +148,8 @@ DensityFlow MeasureDensityFlow(const DetectorOptions& options, const std::filesy
     VideoSource start(path);
     std::vector<GrayImage> some;
     for (GrayImage image; some.size() < kLearnImages && start.Read(&image);) some.push_back(image);
-    detector.Learn(some);
+    ThreadPool pool(0);
+    detector.Learn(some, &pool);
   }
   VideoSource video(path);
   DensityFlow flow;

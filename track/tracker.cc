@@ -32,7 +32,9 @@ using internal::TrackCheckpoint;
 constexpr std::size_t kLearnImages = 24;  // at the start, for the detector
 constexpr std::size_t kLearnStride = 2;   // of these, every second one
 constexpr std::size_t kBatch = 8;         // frames that are looked at together
-constexpr std::size_t kQueued = 8;        // frames between two threads
+constexpr std::size_t kQueued = 8;        // pictures between two threads
+constexpr std::size_t kFound = 96;        // frames' blobs, which are much less: as the linker looks
+                                          // at some seconds of them before it begins
 constexpr int kSaveStride = 50;           // frames at least from one that can be gone on from to
                                           // the next
 
@@ -71,7 +73,7 @@ class Finder {
   void Learn(const std::vector<GrayImage>& images) {
     std::vector<GrayImage> some;
     for (std::size_t k = 0; k < images.size(); k += kLearnStride) some.push_back(images[k]);
-    Timed(&timings_->detect_s, [&] { detector.Learn(some); });
+    Timed(&timings_->detect_s, [&] { detector.Learn(some, &pool_); });
   }
   std::vector<Found> Find(std::span<const GrayImage> images) {
     std::vector<BlobFrame> blobs =
@@ -201,7 +203,7 @@ TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::p
 
   SparePictures spare;
   BoundedQueue<GrayImage> images(kQueued);
-  BoundedQueue<Found> all_found(4 * kQueued);
+  BoundedQueue<Found> all_found(kFound);
   std::exception_ptr decode_error, find_error, link_error;
   std::thread decoder = Run(
       &decode_error, [&] { Decode(&video, &timings, &spare, &images); }, [&] { images.Close(); });

@@ -120,21 +120,26 @@ double Detector::Window(int image_height) const {
   return std::clamp(kWindowOverLength * usual_length_, std::min(24.0, widest), widest);
 }
 
-void Detector::Learn(std::span<const GrayImage> images) {
-  if (options_.polarity == "auto") {
-    double dark_energy = 0, bright_energy = 0;
-    for (std::size_t k = 0; k < images.size(); k += kPolarityStride) {
-      for (const bool dark : {true, false}) {
-        BlobFrame found;
-        FindBlobs(images[k], dark, &scratch_.front(), &found);
-        for (const Blob& blob : found.blobs)
-          (dark ? dark_energy : bright_energy) += blob.peak * blob.peak;
-      }
-    }
-    dark_ = dark_energy >= bright_energy;
-    bright_ = !dark_;
-  }
-  for (const GrayImage& image : images) Detect(0, image);
+void Detector::Learn(std::span<const GrayImage> images, ThreadPool* pool) {
+  if (options_.polarity == "auto") LearnPolarity(images, pool);
+  DetectAll(0, images, pool);
+}
+
+// The sign that has more to it.
+void Detector::LearnPolarity(std::span<const GrayImage> images, ThreadPool* pool) {
+  const std::size_t looks = 2 * ((images.size() + kPolarityStride - 1) / kPolarityStride);
+  while (scratch_.size() < looks) scratch_.emplace_back();
+  std::vector<double> energies(looks, 0);  // dark, bright, dark, ...
+  pool->For(0, static_cast<std::int64_t>(looks), 1, [&](std::int64_t k, std::int64_t) {
+    BlobFrame found;
+    FindBlobs(images[static_cast<std::size_t>(k) / 2 * kPolarityStride], k % 2 == 0, &scratch_[k],
+              &found);
+    for (const Blob& blob : found.blobs) energies[k] += blob.peak * blob.peak;
+  });
+  double dark_energy = 0, bright_energy = 0;
+  for (std::size_t k = 0; k < looks; ++k) (k % 2 == 0 ? dark_energy : bright_energy) += energies[k];
+  dark_ = dark_energy >= bright_energy;
+  bright_ = !dark_;
 }
 
 BlobFrame Detector::Detect(int frame, const GrayImage& image) {

@@ -58,7 +58,7 @@ class Detector {
   explicit Detector(const DetectorOptions& options);
 
   // Learns sign, contrast and length from frames of the footage's start.
-  void Learn(std::span<const GrayImage> images);
+  void Learn(std::span<const GrayImage> images, ThreadPool* pool);
 
   BlobFrame Detect(int frame, const GrayImage& image);
 
@@ -96,6 +96,7 @@ class Detector {
   void DropIgnored(std::size_t first, BlobFrame* found) const;
   void Remember(const BlobFrame& found);
   double Window(int image_height) const;
+  void LearnPolarity(std::span<const GrayImage> images, ThreadPool* pool);
 
   DetectorOptions options_;
   std::vector<Box> ignored_;

@@ -26,7 +26,8 @@ void BM_Detect(benchmark::State& state) {
   const GrayImage image =
       DrawPicture(width, height, {.level = 150, .gradient_y = 0.05, .noise = 3}, blobs);
   Detector detector({});
-  detector.Learn(std::span(&image, 1));
+  ThreadPool pool(1);
+  detector.Learn(std::span(&image, 1), &pool);
   for (auto _ : state) benchmark::DoNotOptimize(detector.Detect(1, image));
   state.counters["frames/s"] =
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);

@@ -51,7 +51,8 @@ TEST_P(DetectorFindsAll, WithoutMissesFalseOnesOrBias) {
   std::vector<GrayImage> first;
   for (std::uint64_t k = 1; k <= 4; ++k)
     first.push_back(DrawPicture(kWidth, kHeight, sky, Scatter(contrast, k), k));
-  detector.Learn(first);
+  ThreadPool pool(2);
+  detector.Learn(first, &pool);
   EXPECT_EQ(detector.finds_dark(), contrast < 0);
   EXPECT_EQ(detector.finds_bright(), contrast > 0);
   double bias_x = 0, bias_y = 0, squared = 0, count = 0;
@@ -106,7 +107,8 @@ TEST(DetectorTest, CloudsAndFadesDoNotFire) {
   Detector detector({});
   const Sky sky{.level = 150, .noise = 2};
   const std::vector<GrayImage> first{DrawPicture(kWidth, kHeight, sky, with_animals, 1)};
-  detector.Learn(first);
+  ThreadPool pool(2);
+  detector.Learn(first, &pool);
   EXPECT_TRUE(detector.finds_dark());
   EXPECT_EQ(detector.Detect(1, DrawPicture(kWidth, kHeight, sky, with_animals, 2)).blobs.size(),
             5u);
