@@ -47,6 +47,8 @@ void SetFigures(const TrackerReport& report, const Tracks& tracks, Stage* stage)
       {"camera_moves", report.camera_moves},
       {"usual_length_px", report.usual_length_px},
       {"usual_contrast", report.usual_contrast},
+      {"motion_model", report.correlation > 0 ? "Singer" : "constant velocity"},
+      {"acceleration_correlation_frames", report.correlation},
       {"process_noise_sizes", report.noise.acceleration},
       {"measurement_noise_sizes", report.noise.measurement},
       {"speed_sd_px_per_frame", report.noise.speed_sd},

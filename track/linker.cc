@@ -37,8 +37,10 @@ void Linker::Start() {
     first_.clear();
     return;
   }
-  noise_ = EstimateMotionNoise(UnmistakablePaths(first_, kLeastPath), MotionNoise{});
-  tracker_.emplace(options_.associate, noise_, width_, height_);
+  const std::vector<Path> paths = UnmistakablePaths(first_, kLeastPath);
+  noise_ = EstimateMotionNoise(paths, MotionNoise{});
+  model_ = EstimateMotionModel(paths, noise_);
+  tracker_.emplace(options_.associate, model_, width_, height_);
   for (const BlobFrame& frame : first_) Step(frame);
   first_.clear();
 }
@@ -46,12 +48,15 @@ void Linker::Start() {
 void Linker::Step(const BlobFrame& frame) {
   tracker_->Step(frame);
   if (++steps_ % kRelearnInterval != 0) return;
-  noise_ = EstimateMotionNoise(tracker_->RecentPaths(kLeastPath), noise_);
-  tracker_->SetNoise(noise_);
+  const std::vector<Path> paths = tracker_->RecentPaths(kLeastPath);
+  noise_ = EstimateMotionNoise(paths, noise_);
+  model_ = EstimateMotionModel(paths, noise_);
+  tracker_->SetNoise(model_);
 }
 
 void Linker::Save(StateWriter* state, StateWriter* log) {
   state->Put(noise_);
+  state->Put(model_);
   state->Put(separability_);
   state->Put(steps_);
   camera_.Save(state);
@@ -60,10 +65,11 @@ void Linker::Save(StateWriter* state, StateWriter* log) {
 
 void Linker::Load(StateReader* state, std::string_view log) {
   state->Take(&noise_);
+  state->Take(&model_);
   state->Take(&separability_);
   state->Take(&steps_);
   camera_.Load(state);
-  tracker_.emplace(options_.associate, noise_, width_, height_);
+  tracker_.emplace(options_.associate, model_, width_, height_);
   tracker_->Load(state, log);
 }
 
@@ -73,6 +79,7 @@ TrackerResult Linker::Finish(std::optional<double> fps, TrackerReport report) {
     if (!tracker_ && !has_declined()) Start();
     report.separability = separability_;
     report.camera_moves = !camera_.rests();
+    report.correlation = model_.correlation;
     return JoinAndFinish(options_, noise_, fps, width_, height_, camera_,
                          tracker_ ? tracker_->Finish() : std::vector<TrackRecord>{},
                          std::move(report));

@@ -43,7 +43,9 @@ class Linker {
 
   const TrackerOptions& options_;
   double width_, height_;
-  MotionNoise noise_;
+  // How the animals move, with constant velocity, for joins and for the final smoothing; and by the
+  // likelier model of the bank, which predicts them from frame to frame.
+  MotionNoise noise_, model_;
   Separability separability_;
   CameraPath camera_;
   std::vector<BlobFrame> first_;

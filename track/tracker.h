@@ -70,7 +70,8 @@ struct TrackerReport {
   Separability separability;          // of the first seconds; not enough: there are no tracks
   bool camera_moves = false;          // and was followed
   std::vector<Suspicion> suspicions;  // the likeliest mistake first
-  MotionNoise noise;                  // as learned
+  MotionNoise noise;                  // as learned, with constant velocity
+  double correlation = 0;             // of Singer's model where that predicts better [frames]
   double usual_length_px = 0;         // 4 sd of an animal's major axis
   double usual_contrast = 0;          // [grey levels]
   bool dark = true, bright = false;   // the sign of the animals' contrast

@@ -45,9 +45,11 @@ void FlockTracker::Step(const BlobFrame& blobs) {
 }
 
 void FlockTracker::PredictAll(int frames) {
+  const MotionStep step = noise_.Step();
   for (Animal& animal : animals_) {
-    animal.motion.Predict(noise_.ProcessVariance(animal.record.size), frames);
+    animal.motion.Predict(step, noise_.ProcessVariance(animal.record.size), frames);
     animal.age += frames;
+    animal.alone = frames < kRemembered ? animal.alone << frames : 0;
     animal.missed += frames - 1;
   }
 }
@@ -84,6 +86,7 @@ std::vector<int> FlockTracker::AssignAll(const BlobFrame& blobs,
 void FlockTracker::NoteAlone(int frame, Animal* animal) {
   if (animal->last_alone < 0) animal->first_alone = frame;
   animal->last_alone = frame;
+  animal->alone |= 1;
 }
 
 void FlockTracker::Sight(const BlobFrame& blobs, const Observation& o, Animal* animal) {
@@ -191,8 +194,8 @@ void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observa
     animal.record.mass = blob.mass;
     animal.moments = blob.moments;
     const double variance = noise_.MeasurementVariance(animal.record.size);
-    animal.motion =
-        MotionFilter({blob.center, {0, 0}, variance, 0, noise_.speed_sd * noise_.speed_sd});
+    animal.motion = MotionFilter(
+        noise_.Start(blob.center, variance, noise_.ProcessVariance(animal.record.size)));
     animal.hits = 1;
     animal.logged.number = ++begun_;
     if (!blob.cut && !blob.edges.any()) NoteAlone(blobs.frame, &animal);

@@ -92,6 +92,8 @@ class FlockTracker {
   void Load(StateReader* state, std::string_view log);
 
  private:
+  static constexpr int kRemembered = 64;  // frames of an animal's own blobs, one by one
+
   // Under which number a track's sightings stand in the log, and how many.
   struct Logged {
     std::uint64_t number = 0, sightings = 0;
@@ -103,6 +105,7 @@ class FlockTracker {
     int hits = 0, missed = 0, age = 0;
     int hidden = 0;                        // frames in a row
     int first_alone = 0, last_alone = -1;  // frames in which it had a whole blob of its own
+    std::uint64_t alone = 0;               // bit k: so it had k frames ago
     bool confirmed = false;
     Logged logged = {};
   };
@@ -117,7 +120,7 @@ class FlockTracker {
 
   void PredictAll(int frames);
   std::vector<Observation> Observe(const BlobFrame& blobs);
-  void KeepSeenApart(std::vector<int>* inside) const;
+  void KeepSeenApart(int frame, std::vector<int>* inside) const;
   Expectation ExpectationOf(const Animal& animal) const;
   void DropAbsent(const Blob& blob, std::vector<int>* inside) const;
   std::vector<std::vector<int>> ExpectedInBlobs(const BlobFrame& blobs) const;

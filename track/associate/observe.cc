@@ -91,10 +91,11 @@ std::vector<std::vector<int>> FlockTracker::ExpectedInBlobs(const BlobFrame& blo
   return expected;
 }
 
-// Two tracks share a blob only if their animals were once seen apart, both alone in the same
-// stretch of frames: else the second is the first one found again, or a piece of it. Whoever was
-// missed longer, or came later, has to wait.
-void FlockTracker::KeepSeenApart(std::vector<int>* inside) const {
+// Two tracks share a blob only if their animals were once seen apart, both alone in the same frame
+// (or, longer ago than is remembered by frame, in the same stretch of frames): else the second is
+// the first one found again, or a piece of it. Whoever was missed longer, or came later, has to
+// wait.
+void FlockTracker::KeepSeenApart(int frame, std::vector<int>* inside) const {
   std::stable_sort(inside->begin(), inside->end(), [this](int a, int b) {
     const Animal &x = animals_[a], &y = animals_[b];
     return x.missed != y.missed ? x.missed < y.missed : x.hits > y.hits;
@@ -104,7 +105,9 @@ void FlockTracker::KeepSeenApart(std::vector<int>* inside) const {
     const Animal& x = animals_[i];
     const bool apart = std::all_of(kept.begin(), kept.end(), [&](int k) {
       const Animal& y = animals_[k];
-      return std::max(x.first_alone, y.first_alone) <= std::min(x.last_alone, y.last_alone);
+      const int both_from = std::max(x.first_alone, y.first_alone);
+      if (both_from > std::min(x.last_alone, y.last_alone)) return false;
+      return (x.alone & y.alone) != 0 || both_from + kRemembered <= frame;
     });
     if (apart) kept.push_back(i);
   }
@@ -144,7 +147,7 @@ std::vector<FlockTracker::Observation> FlockTracker::Observe(const BlobFrame& bl
   for (std::size_t j = 0; j < blobs.blobs.size(); ++j) {
     const Blob& blob = blobs.blobs[j];
     std::vector<int>& inside = expected[j];
-    KeepSeenApart(&inside);
+    KeepSeenApart(blobs.frame, &inside);
     WaitIfHidden(&inside);
     if (inside.size() >= 2) DropAbsent(blob, &inside);
     if (inside.size() < 2) {

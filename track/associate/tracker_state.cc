@@ -78,6 +78,7 @@ void FlockTracker::Save(StateWriter* state, StateWriter* log) {
                             animal.first_alone, animal.last_alone}) {
       state->Put(value);
     }
+    state->Put(animal.alone);
     state->Put(animal.confirmed);
   }
 }
@@ -114,6 +115,7 @@ void FlockTracker::Load(StateReader* state, std::string_view log) {
                        &animal.first_alone, &animal.last_alone}) {
       state->Take(value);
     }
+    state->Take(&animal.alone);
     state->Take(&animal.confirmed);
     animal.record.sightings = FirstOf(&logged[animal.logged.number], animal.logged.sightings);
   }

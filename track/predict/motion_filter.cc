@@ -22,21 +22,32 @@ MotionState MomentMatched(std::span<const MotionState> modes, std::span<const do
     mean.position.y += weights[m] * modes[m].position.y;
     mean.velocity.x += weights[m] * modes[m].velocity.x;
     mean.velocity.y += weights[m] * modes[m].velocity.y;
+    mean.acceleration.x += weights[m] * modes[m].acceleration.x;
+    mean.acceleration.y += weights[m] * modes[m].acceleration.y;
   }
   for (std::size_t m = 0; m < modes.size(); ++m) {
     const MotionState& s = modes[m];
     const double px = s.position.x - mean.position.x, py = s.position.y - mean.position.y;
     const double vx = s.velocity.x - mean.velocity.x, vy = s.velocity.y - mean.velocity.y;
+    const double ax = s.acceleration.x - mean.acceleration.x;
+    const double ay = s.acceleration.y - mean.acceleration.y;
     mean.pp += weights[m] * (s.pp + 0.5 * (px * px + py * py));
     mean.pv += weights[m] * (s.pv + 0.5 * (px * vx + py * vy));
     mean.vv += weights[m] * (s.vv + 0.5 * (vx * vx + vy * vy));
+    mean.pa += weights[m] * (s.pa + 0.5 * (px * ax + py * ay));
+    mean.va += weights[m] * (s.va + 0.5 * (vx * ax + vy * ay));
+    mean.aa += weights[m] * (s.aa + 0.5 * (ax * ax + ay * ay));
   }
   return mean;
 }
 
 }  // namespace
 
-MotionFilter::MotionFilter(const MotionState& start) : mean_(start) { modes_.fill(start); }
+MotionFilter::MotionFilter(const MotionState& start) {
+  modes_.fill(start);
+  for (int m = 0; m < kModes; ++m) modes_[m].aa *= kFactors[m] * kFactors[m];
+  mean_ = MomentMatched(modes_, weights_);
+}
 
 void MotionFilter::Mix() {
   constexpr double kLeave = (1 - kStay) / (kModes - 1);
@@ -56,10 +67,14 @@ void MotionFilter::Mix() {
   weights_ = weights;
 }
 
-void MotionFilter::Predict(double q, int frames) {
+void MotionFilter::Predict(const MotionStep& step, double q, int frames) {
+  static const MotionStep kStraight = StepOf(0);
   for (int frame = 0; frame < frames; ++frame) {
     Mix();
-    for (int m = 0; m < kModes; ++m) flocklift::Predict(&modes_[m], q * kFactors[m] * kFactors[m]);
+    for (int m = 0; m < kModes; ++m) {
+      const bool is_agile = m == kModes - 1;
+      flocklift::Predict(&modes_[m], is_agile ? kStraight : step, q * kFactors[m] * kFactors[m]);
+    }
   }
   mean_ = MomentMatched(modes_, weights_);
 }

@@ -3,8 +3,10 @@
 //
 // The motion of one animal that now glides and now turns: an interacting multiple model estimator
 // over the filters of kalman.h, whose modes (calm, usual, agile) differ in process noise,
-// q_m = factor_m^2 q. Before
-// each prediction the modes mix (mode n turns into m with probability T_nm),
+// q_m = factor_m^2 q, and in the model: the agile mode has constant velocity, the others Singer's
+// model where that is likelier (motion_noise.h). So a curve is seen coming, and a start that no
+// curve announces stays within the agile mode's reach. Before each prediction the modes mix (mode n
+// turns into m with probability T_nm),
 //   c_m = sum_n T_nm w_n,   x_m <- sum_n (T_nm w_n / c_m) x_n   (moment matched),
 // and a measurement reweighs them by their likelihoods, w_m ~ c_m N(z; x_m, P_m + r).
 // Blom, Bar-Shalom, IEEE Trans. Automatic Control 33, 1988.
@@ -25,9 +27,11 @@ class MotionFilter {
   static constexpr double kStay = 0.95;  // T_mm; the rest is spread evenly
 
   MotionFilter() = default;
+  // `start` is that of the mode whose factor is 1.
   explicit MotionFilter(const MotionState& start);
 
-  void Predict(double q, int frames = 1);
+  // `step` is that of one frame in the calm and the usual mode.
+  void Predict(const MotionStep& step, double q, int frames = 1);
   void Update(const Vec2d& z, double r);
 
   // -ln of the density of a measurement at z [1/px^2].

@@ -15,6 +15,9 @@ constexpr double kMostSurprise = 14;    // of one measurement: a wrong link is n
 constexpr std::size_t kLeastPaths = 3;  // fewer teach nothing
 constexpr std::size_t kBankSamples = 8000;
 constexpr int kHorizon = 3;
+constexpr double kCorrelations[] = {2, 4, 8, 16};  // [frames]
+constexpr int kMostSteps = 8;      // of half an octave, when a factor is sought from near it
+constexpr double kLeastGain = 10;  // of the log likelihood, of Singer's model over a simpler one
 
 struct Nearest {
   int index = -1;
@@ -87,23 +90,89 @@ double Surprise(const MotionState& state, const Vec2d& z, double r) {
 // Of the positions one frame and kHorizon frames ahead. The far look tells noise that comes and
 // goes (a wingbeat moves the blob's centre to and fro) from motion that stays.
 double LogLikelihood(std::span<const Path> paths, const MotionNoise& noise) {
+  const MotionStep step = noise.Step(), far_step = noise.Step(kHorizon - 1);
   double sum = 0;
   for (const Path& path : paths) {
     const double q = noise.ProcessVariance(path.size), r = noise.MeasurementVariance(path.size);
-    MotionState state{path.positions[0], {0, 0}, r, 0, noise.speed_sd * noise.speed_sd};
+    MotionState state = noise.Start(path.positions[0], r, q);
     for (std::size_t k = 1; k < path.positions.size(); ++k) {
-      Predict(&state, q);
+      Predict(&state, step, q);
       // Before the third, the velocity is not known.
       if (k >= 3) sum -= std::min(Surprise(state, path.positions[k], r), kMostSurprise);
       if (k >= 3 && k + kHorizon - 1 < path.positions.size()) {
         MotionState ahead = state;
-        Predict(&ahead, q, kHorizon - 1);
+        Predict(&ahead, far_step, q);
         sum -= std::min(Surprise(ahead, path.positions[k + kHorizon - 1], r), kMostSurprise);
       }
       Update(&state, path.positions[k], r);
     }
   }
   return sum;
+}
+
+// Enough is enough: the first paths, in their order.
+std::span<const Path> Enough(std::span<const Path> paths) {
+  std::size_t used = 0, samples = 0;
+  while (used < paths.size() && samples < kBankSamples) samples += paths[used++].positions.size();
+  return paths.first(used);
+}
+
+// The better of `best` and what has one factor changed to 2^(half_octaves / 2).
+void TryFactor(std::span<const Path> paths, bool is_acceleration, int half_octaves,
+               MotionNoise noise, double* best_likelihood, MotionNoise* best) {
+  (is_acceleration ? noise.acceleration : noise.measurement) = std::exp2(0.5 * half_octaves);
+  const double likelihood = LogLikelihood(paths, noise);
+  if (likelihood > *best_likelihood) {
+    *best_likelihood = likelihood;
+    *best = noise;
+  }
+}
+
+// Sets the two factors to the likeliest; returns the log likelihood. One factor after the other,
+// over octaves: the likelihood has one hill.
+double FitFactors(std::span<const Path> paths, MotionNoise* best) {
+  best->acceleration = std::exp2(-4);
+  best->measurement = std::exp2(-3.5);
+  double best_likelihood = LogLikelihood(paths, *best);
+  for (int round = 0; round < 3; ++round) {
+    const MotionNoise before = *best;
+    for (const bool is_acceleration : {true, false}) {
+      const MotionNoise base = *best;
+      for (int half_octaves = is_acceleration ? -20 : -12;
+           half_octaves <= (is_acceleration ? 2 : -2); half_octaves += round == 0 ? 2 : 1) {
+        TryFactor(paths, is_acceleration, half_octaves, base, &best_likelihood, best);
+      }
+    }
+    if (round > 0 && best->acceleration == before.acceleration &&
+        best->measurement == before.measurement) {
+      break;
+    }
+  }
+  return best_likelihood;
+}
+
+// The same from factors that are nearly right, by steps to either side of them.
+double RefitFactors(std::span<const Path> paths, MotionNoise* best) {
+  double best_likelihood = LogLikelihood(paths, *best);
+  for (bool has_moved = true; has_moved;) {
+    has_moved = false;
+    for (const bool is_acceleration : {true, false}) {
+      const double factor = is_acceleration ? best->acceleration : best->measurement;
+      const int here = static_cast<int>(std::lround(2 * std::log2(factor)));
+      for (const int side : {1, -1}) {
+        const MotionNoise base = *best;
+        const double before = best_likelihood;
+        for (int steps = 1; steps <= kMostSteps; ++steps) {
+          const double last = best_likelihood;
+          TryFactor(paths, is_acceleration, here + side * steps, base, &best_likelihood, best);
+          if (best_likelihood == last) break;
+        }
+        has_moved = has_moved || best_likelihood > before;
+        if (best_likelihood > before) break;
+      }
+    }
+  }
+  return best_likelihood;
 }
 
 }  // namespace
@@ -161,11 +230,7 @@ std::vector<Path> UnmistakablePaths(std::span<const BlobFrame> frames, int least
 
 MotionNoise EstimateMotionNoise(std::span<const Path> paths, const MotionNoise& start) {
   if (paths.size() < kLeastPaths) return start;
-  // Enough is enough: the first paths, in their order.
-  std::size_t used = 0, samples = 0;
-  while (used < paths.size() && samples < kBankSamples) samples += paths[used++].positions.size();
-  const std::span<const Path> some = paths.first(used);
-
+  const std::span<const Path> some = Enough(paths);
   MotionNoise best = start;
   double sum = 0, count = 0;
   for (const Path& path : some) {
@@ -178,29 +243,23 @@ MotionNoise EstimateMotionNoise(std::span<const Path> paths, const MotionNoise& 
   }
   best.speed_sd = std::max(1.5 * std::sqrt(sum / std::max(count, 1.0)), 0.5);
 
-  // One factor after the other, over octaves: the likelihood has one hill.
-  best.acceleration = std::exp2(-4);
-  best.measurement = std::exp2(-3.5);
+  best.correlation = 0;
+  FitFactors(some, &best);
+  return best;
+}
+
+MotionNoise EstimateMotionModel(std::span<const Path> paths, const MotionNoise& straight) {
+  MotionNoise best = straight;
+  if (paths.size() < kLeastPaths) return best;
+  const std::span<const Path> some = Enough(paths);
   double best_likelihood = LogLikelihood(some, best);
-  for (int round = 0; round < 3; ++round) {
-    const MotionNoise before = best;
-    for (const bool acceleration : {true, false}) {
-      const MotionNoise base = best;
-      for (int half_octaves = acceleration ? -20 : -12; half_octaves <= (acceleration ? 2 : -2);
-           half_octaves += round == 0 ? 2 : 1) {
-        MotionNoise noise = base;
-        (acceleration ? noise.acceleration : noise.measurement) = std::exp2(0.5 * half_octaves);
-        const double likelihood = LogLikelihood(some, noise);
-        if (likelihood > best_likelihood) {
-          best_likelihood = likelihood;
-          best = noise;
-        }
-      }
-    }
-    if (round > 0 && best.acceleration == before.acceleration &&
-        best.measurement == before.measurement) {
-      break;
-    }
+  for (const double correlation : kCorrelations) {
+    MotionNoise noise = best;
+    noise.correlation = correlation;
+    const double likelihood = RefitFactors(some, &noise);
+    if (likelihood < best_likelihood + kLeastGain) break;  // of these, too, there is one hill
+    best_likelihood = likelihood;
+    best = noise;
   }
   return best;
 }

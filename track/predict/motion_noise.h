@@ -6,7 +6,8 @@
 // as near looks twice as large and moves twice as fast:
 //   q = (acceleration s)^2,   r = (measurement s)^2 + floor^2.
 // The two factors are those of a bank under which the innovations of unmistakable paths are the
-// most likely, sum over frames of -1/2 min(d^2, cap) - ln S.
+// most likely, sum over frames of -1/2 min(d^2, cap) - ln S; and so is the correlation time of the
+// acceleration, where Singer's model (motion_step.h) is likelier than constant velocity.
 
 #ifndef FLOCKLIFT_TRACK_PREDICT_MOTION_NOISE_H_
 #define FLOCKLIFT_TRACK_PREDICT_MOTION_NOISE_H_
@@ -24,10 +25,20 @@ struct MotionNoise {
   double measurement = 0.05;   // [sizes]
   double floor = 0.1;          // [px]
   double speed_sd = 5;         // sd of a velocity component over the animals [px/frame]
+  double correlation = 0;      // of the acceleration; 0: white noise, constant velocity [frames]
 
   double ProcessVariance(double size) const { return acceleration * size * acceleration * size; }
   double MeasurementVariance(double size) const {
     return measurement * size * measurement * size + floor * floor;
+  }
+  MotionStep Step(double frames = 1) const { return StepOf(correlation, frames); }
+  // Of an animal that was seen once, with variance `r`; `q` is its process variance.
+  MotionState Start(const Vec2d& position, double r, double q) const {
+    return {.position = position,
+            .velocity = {},
+            .pp = r,
+            .vv = speed_sd * speed_sd,
+            .aa = AccelerationVariance(q, correlation)};
   }
 };
 
@@ -45,8 +56,11 @@ double ExtentOf(std::span<const Vec2d> points);
 // left out, and so is whatever moves less than its own size (lamps, branches).
 std::vector<Path> UnmistakablePaths(std::span<const BlobFrame> frames, int least);
 
-// The best of the bank; `start` when there is nothing to learn from.
+// The best with constant velocity; `start` when there is nothing to learn from.
 MotionNoise EstimateMotionNoise(std::span<const Path> paths, const MotionNoise& start);
+
+// The best of the whole bank, given the best with constant velocity.
+MotionNoise EstimateMotionModel(std::span<const Path> paths, const MotionNoise& straight);
 
 inline double SizeOf(const Blob& blob) {
   return blob.peak > 0 ? std::sqrt(std::max(blob.mass / blob.peak, 1.0)) : 1.0;

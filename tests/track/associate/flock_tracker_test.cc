@@ -110,6 +110,21 @@ TEST(FlockTrackerTest, OneAnimalHasOneTrack) {
   EXPECT_GE(rows, 2 * 80 - 8);
 }
 
+// Its wings pull the blob of one animal to and fro, more than its motion announces: other tracks
+// begin on the blob, and take it by turns with the first. They were never seen apart from it, so
+// they do not live on beside it as its neighbours.
+TEST(FlockTrackerTest, WhatWasNeverSeenApartSharesNothing) {
+  const auto path = [](int t) {
+    Rng rng(3, static_cast<std::uint64_t>(t));
+    const double pull = t < 30 ? 0 : t / 3 % 2 == 0 ? 1.5 : -1.5;
+    return Vec2d{50 + 3.0 * t, 100 + pull + 0.3 * rng.Normal()};
+  };
+  std::size_t rows = 0;
+  for (const TrackRecord& track : Track(Film(120, {path}))) rows += track.sightings.size();
+  EXPECT_GE(rows, 110u);
+  EXPECT_LE(rows, 145u);
+}
+
 TEST(FlockTrackerTest, CoastsThroughAShortGap) {
   const auto path = [](int t) {
     return t > 15 && t <= 21 ? kNowhere : Vec2d{50 + 4.0 * t, 100 + 1.5 * t};

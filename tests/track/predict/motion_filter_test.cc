@@ -14,7 +14,7 @@ MotionFilter Start() { return MotionFilter({{100, 100}, {4, 0}, 0.2, 0, 1}); }
 
 TEST(MotionFilterTest, DensityIntegratesToOne) {
   MotionFilter filter = Start();
-  filter.Predict(0.01, 3);
+  filter.Predict(StepOf(0), 0.01, 3);
   double sum = 0;
   constexpr double kStep = 0.25;
   for (double x = -100; x <= 100; x += kStep) {
@@ -31,8 +31,8 @@ TEST(MotionFilterTest, GoesStraightLikeAKalmanFilter) {
   MotionFilter filter = Start();
   MotionState kalman{{100, 100}, {4, 0}, 0.2, 0, 1};
   for (int frame = 1; frame <= 20; ++frame) {
-    filter.Predict(0);
-    Predict(&kalman, 0);
+    filter.Predict(StepOf(0), 0);
+    Predict(&kalman, StepOf(0), 0);
     const Vec2d z{100 + 4.2 * frame, 100 + 0.1 * frame};
     filter.Update(z, 0.2);
     Update(&kalman, z, 0.2);
@@ -53,8 +53,8 @@ TEST(MotionFilterTest, FollowsATurnThatOneModeLoses) {
   for (int frame = 1; frame <= 60; ++frame) {
     if (frame > 40 && frame <= 50) v = {v.x - 0.4, v.y + 0.5};
     p = {p.x + v.x, p.y + v.y};
-    filter.Predict(kQ);
-    Predict(&kalman, kQ);
+    filter.Predict(StepOf(0), kQ);
+    Predict(&kalman, StepOf(0), kQ);
     if (frame > 40) {
       filter_error = std::max(filter_error, std::hypot(filter.state().position.x - p.x,
                                                        filter.state().position.y - p.y));
@@ -70,6 +70,53 @@ TEST(MotionFilterTest, FollowsATurnThatOneModeLoses) {
   EXPECT_GT(kalman_error, 15);
   EXPECT_LT(filter_error, 0.5 * kalman_error);
   EXPECT_GT(turn_agility, 4 * glide_agility);
+}
+
+// Where accelerations stay alike, the agile mode is as wide as with constant velocity.
+TEST(MotionFilterTest, ReachesWhatNoCurveAnnounces) {
+  constexpr double kQ = 0.3, kCorrelation = 8;
+  MotionFilter filter({.position = {0, 0},
+                       .velocity = {2, 0},
+                       .pp = 0.2,
+                       .vv = 1,
+                       .aa = AccelerationVariance(kQ, kCorrelation)});
+  MotionState agile{{0, 0}, {2, 0}, 0.2, 0, 1}, curved = agile;
+  curved.aa = 16 * AccelerationVariance(kQ, kCorrelation);
+  for (int frame = 1; frame <= 30; ++frame) {
+    filter.Predict(StepOf(kCorrelation), kQ);
+    Predict(&agile, StepOf(0), 16 * kQ);
+    Predict(&curved, StepOf(kCorrelation), 16 * kQ);
+    if (frame == 30) break;
+    filter.Update({2.0 * frame, 0}, 0.2);
+    Update(&agile, {2.0 * frame, 0}, 0.2);
+    Update(&curved, {2.0 * frame, 0}, 0.2);
+  }
+  EXPECT_GT(filter.widest_pp(), 0.5 * agile.pp);
+  EXPECT_GT(filter.widest_pp(), 2 * curved.pp);
+}
+
+// On a circle the acceleration goes on as it is: Singer's filter sees the next place coming.
+TEST(MotionFilterTest, KnowsOfACurveWhenAccelerationsStayAlike) {
+  constexpr double kQ = 1, kRadius = 30, kAngle = 0.15;
+  double error[2] = {0, 0};
+  for (const bool is_singer : {false, true}) {
+    const double correlation = is_singer ? 10 : 0;
+    MotionFilter filter({.position = {kRadius, 0},
+                         .velocity = {0, kRadius * kAngle},
+                         .pp = 0.2,
+                         .vv = 1,
+                         .aa = AccelerationVariance(kQ, correlation)});
+    for (int frame = 1; frame <= 60; ++frame) {
+      filter.Predict(StepOf(correlation), kQ);
+      const Vec2d p{kRadius * std::cos(kAngle * frame), kRadius * std::sin(kAngle * frame)};
+      if (frame > 20) {
+        error[is_singer] +=
+            std::hypot(filter.state().position.x - p.x, filter.state().position.y - p.y) / 40;
+      }
+      filter.Update(p, 0.01);
+    }
+  }
+  EXPECT_LT(error[1], 0.6 * error[0]);
 }
 
 }  // namespace

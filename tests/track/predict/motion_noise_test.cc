@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/track/pictures.h"
 
 namespace flocklift {
@@ -82,6 +84,46 @@ TEST_P(RecoversNoise, WithinAFactor) {
 INSTANTIATE_TEST_SUITE_P(Bank, RecoversNoise,
                          testing::Values(std::pair{0.01, 0.3}, std::pair{0.2, 0.3},
                                          std::pair{0.05, 1.0}));
+
+// Paths with Singer's acceleration, in steps of a twentieth of a frame.
+std::vector<Path> Curved(double correlation, double acceleration_sd, double noise) {
+  constexpr int kSteps = 20;
+  std::vector<Path> paths;
+  for (std::uint64_t k = 0; k < kAnimals; ++k) {
+    Rng rng(12, k);
+    Path path{4, {}};
+    const double keep = std::exp(-1 / (correlation * kSteps));
+    const double kick = acceleration_sd * std::sqrt(1 - keep * keep);
+    Vec2d p{0, 0}, v{rng.Uniform(-3, 3), rng.Uniform(-3, 3)};
+    Vec2d a{acceleration_sd * rng.Normal(), acceleration_sd * rng.Normal()};
+    for (int frame = 0; frame < kFrames; ++frame) {
+      for (int step = 0; step < kSteps; ++step) {
+        a = {keep * a.x + kick * rng.Normal(), keep * a.y + kick * rng.Normal()};
+        v = {v.x + a.x / kSteps, v.y + a.y / kSteps};
+        p = {p.x + v.x / kSteps, p.y + v.y / kSteps};
+      }
+      path.positions.push_back({p.x + noise * rng.Normal(), p.y + noise * rng.Normal()});
+    }
+    paths.push_back(path);
+  }
+  return paths;
+}
+
+TEST(MotionNoiseTest, FindsOutWhetherAccelerationsStayAlike) {
+  for (const double correlation : {4.0, 10.0}) {
+    constexpr double kAccelerationSd = 0.6, kNoise = 0.2;
+    const std::vector<Path> paths = Curved(correlation, kAccelerationSd, kNoise);
+    const MotionNoise learned = EstimateMotionModel(paths, EstimateMotionNoise(paths, {}));
+    EXPECT_GE(learned.correlation, correlation / 2.5);
+    EXPECT_LE(learned.correlation, correlation * 2.5);
+    const double variance = AccelerationVariance(learned.ProcessVariance(4), learned.correlation);
+    EXPECT_GT(std::sqrt(variance), kAccelerationSd / 2);
+    EXPECT_LT(std::sqrt(variance), kAccelerationSd * 2);
+  }
+  // White acceleration has no memory.
+  const std::vector<Path> white = UnmistakablePaths(Found(Fly(0.2, 0.3, 9)), 10);
+  EXPECT_EQ(EstimateMotionModel(white, EstimateMotionNoise(white, {})).correlation, 0);
+}
 
 TEST(MotionNoiseTest, NothingToLearnFromKeepsTheStart) {
   const MotionNoise start{.acceleration = 0.3, .measurement = 0.2};
