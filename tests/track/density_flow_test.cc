@@ -7,10 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/track/pictures.h"
 #include "track/tracker.h"
@@ -67,20 +69,22 @@ TEST_F(DensityFlowTest, NoTracksAreInvented) {
 TEST_F(DensityFlowTest, CountsAndFlow) {
   const DensityFlow flow = MeasureDensityFlow({}, folder_);
   // Birds that hide each other are counted as fewer.
-  EXPECT_GT(flow.median_count, 0.3 * kBirds);
-  EXPECT_LT(flow.median_count, 1.3 * kBirds);
-  EXPECT_NEAR(flow.median_speed, std::hypot(kVelocity.x, kVelocity.y), 0.4);
-  EXPECT_GT(flow.polarisation, 0.7);
-  double u = 0, v = 0, weight = 0;
+  EXPECT_GT(flow.median_count, 0.5 * kBirds);
+  EXPECT_LT(flow.median_count, 0.8 * kBirds);
+  EXPECT_NEAR(flow.median_speed, std::hypot(kVelocity.x, kVelocity.y), 0.3);
+  EXPECT_GT(flow.polarisation, 0.8);
+  // Of the cells that hold many, each by itself: the birds' own ways blur a few of them.
+  std::vector<double> u, v;
   for (const FlowCell& cell : flow.cells) {
     if (!cell.velocity || cell.count < 40) continue;
-    u += cell.count * cell.velocity->x;
-    v += cell.count * cell.velocity->y;
-    weight += cell.count;
+    u.push_back(cell.velocity->x);
+    v.push_back(cell.velocity->y);
   }
-  ASSERT_GT(weight, 0);
-  EXPECT_NEAR(u / weight, kVelocity.x, 0.8);
-  EXPECT_NEAR(v / weight, kVelocity.y, 0.8);
+  ASSERT_GT(u.size(), 20u);
+  std::sort(u.begin(), u.end());
+  std::sort(v.begin(), v.end());
+  EXPECT_NEAR(u[u.size() / 2], kVelocity.x, 0.15);
+  EXPECT_NEAR(v[v.size() / 2], kVelocity.y, 0.15);
 }
 
 TEST_F(DensityFlowTest, WritesATable) {

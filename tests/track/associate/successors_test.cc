@@ -26,13 +26,13 @@ TEST(SuccessorsTest, MissesNothingWithinTheBounds) {
                             {rng.Uniform(0, 600), rng.Uniform(0, 400)},
                             {rng.Uniform(-6, 6), rng.Uniform(-6, 6)}));
   }
-  constexpr int kMaxGap = 45;
+  constexpr int kMaxGap = 45, kEnds = 3000;
   constexpr double kSpeedReach = 2;
   const auto reach = [](int gap) { return 3 + 0.5 * gap; };
   for (const double speed : {0.5, 5.0, 50.0}) {
     const Successors successors(beginnings, speed);
     std::size_t wanted = 0, found = 0;
-    for (int k = 0; k < 300; ++k) {
+    for (int k = 0; k < kEnds; ++k) {
       const TrackEnd end =
           At(1 + static_cast<int>(rng.Uniform(0, 200)), {rng.Uniform(0, 600), rng.Uniform(0, 400)},
              {rng.Uniform(-6, 6), rng.Uniform(-6, 6)});
@@ -51,10 +51,9 @@ TEST(SuccessorsTest, MissesNothingWithinTheBounds) {
         EXPECT_TRUE(std::binary_search(near.begin(), near.end(), static_cast<int>(j)));
       }
     }
-    EXPECT_GT(wanted, 5u);
-    if (speed == 5.0) {
-      EXPECT_LT(found, 300 * beginnings.size() / 5);  // far fewer than all pairs
-    }
+    EXPECT_GT(wanted, 50u);
+    // Far fewer than all pairs, the most so at the scale that is right for these.
+    EXPECT_LT(found, kEnds * beginnings.size() / (speed == 5.0 ? 100 : 10));
   }
 }
 
