@@ -42,6 +42,7 @@ void SetFigures(const TrackerReport& report, const Tracks& tracks, Stage* stage)
       {"joins", report.joins},
       {"exchanges", report.exchanges},
       {"still_tracks_dropped", report.still_tracks},
+      {"static_clutter", report.clutter},
       {"polarity", report.dark ? (report.bright ? "both" : "dark") : "bright"},
       {"separable_share", report.separability.share},
       {"camera_moves", report.camera_moves},

@@ -23,6 +23,7 @@ void Linker::Add(BlobFrame frame) {
   camera_.Add(frame.frame, frame.world_from_image);
   Stabilise(&frame);
   if (tracker_) {
+    clutter_.Drop(&frame);
     Step(frame);
     return;
   }
@@ -31,6 +32,8 @@ void Linker::Add(BlobFrame frame) {
 }
 
 void Linker::Start() {
+  if (options_.min_travel > 0) clutter_.Learn(first_);
+  for (BlobFrame& frame : first_) clutter_.Drop(&frame);
   separability_ = MeasureSeparability(first_);
   separability_.is_enough = separability_.is_enough || !options_.decline;
   if (has_declined()) {
@@ -57,6 +60,7 @@ void Linker::Step(const BlobFrame& frame) {
 void Linker::Save(StateWriter* state, StateWriter* log) {
   state->Put(noise_);
   state->Put(model_);
+  clutter_.Save(state);
   state->Put(separability_);
   state->Put(steps_);
   camera_.Save(state);
@@ -66,6 +70,7 @@ void Linker::Save(StateWriter* state, StateWriter* log) {
 void Linker::Load(StateReader* state, std::string_view log) {
   state->Take(&noise_);
   state->Take(&model_);
+  clutter_.Load(state);
   state->Take(&separability_);
   state->Take(&steps_);
   camera_.Load(state);
@@ -80,6 +85,7 @@ TrackerResult Linker::Finish(std::optional<double> fps, TrackerReport report) {
     report.separability = separability_;
     report.camera_moves = !camera_.rests();
     report.correlation = model_.correlation;
+    report.clutter = static_cast<std::int64_t>(clutter_.learned());
     return JoinAndFinish(options_, noise_, fps, width_, height_, camera_,
                          tracker_ ? tracker_->Finish() : std::vector<TrackRecord>{},
                          std::move(report));

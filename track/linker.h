@@ -13,6 +13,7 @@
 
 #include "track/associate/flock_tracker.h"
 #include "track/camera_path.h"
+#include "track/static_clutter.h"
 #include "track/tracker.h"
 
 namespace flocklift::internal {
@@ -46,6 +47,7 @@ class Linker {
   // How the animals move, with constant velocity, for joins and for the final smoothing; and by the
   // likelier model of the bank, which predicts them from frame to frame.
   MotionNoise noise_, model_;
+  StaticClutter clutter_;
   Separability separability_;
   CameraPath camera_;
   std::vector<BlobFrame> first_;

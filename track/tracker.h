@@ -49,7 +49,8 @@ void Describe(Visitor& visit, TrackerOptions& o) {
   visit("min-length", o.min_length, {.low = 1, .high = 100000}, "frames",
         "tracks with fewer sightings are dropped");
   visit("min-travel", o.min_travel, {.low = 0, .high = 1000}, "sizes",
-        "what is seen for a second or longer and moves less is no animal; 0 keeps all");
+        "what stands still from the start, or is seen for a second or longer and moves less, is no "
+        "animal; 0 keeps all");
 }
 
 // Wall time of each part; parts overlap, so they need not add up.
@@ -59,16 +60,17 @@ struct TrackerTimings {
 
 struct TrackerReport {
   std::int64_t frames = 0;
-  std::int64_t frames_before = 0;     // of these, of a run before that was killed
-  std::int64_t detections = 0;        // blobs
-  std::int64_t rows = 0;              // of all tracks
-  std::int64_t shared_rows = 0;       // of these, from blobs that held several animals
-  std::int64_t filled_rows = 0;       // of these, interpolated
-  std::int64_t joins = 0;             // tracks stitched to one before
-  std::int64_t exchanges = 0;         // of tracks after a shared blob
-  std::int64_t still_tracks = 0;      // dropped: they did not move
-  Separability separability;          // of the first seconds; not enough: there are no tracks
-  bool camera_moves = false;          // and was followed
+  std::int64_t frames_before = 0;  // of these, of a run before that was killed
+  std::int64_t detections = 0;     // blobs
+  std::int64_t rows = 0;           // of all tracks
+  std::int64_t shared_rows = 0;    // of these, from blobs that held several animals
+  std::int64_t filled_rows = 0;    // of these, interpolated
+  std::int64_t joins = 0;          // tracks stitched to one before
+  std::int64_t exchanges = 0;      // of tracks after a shared blob
+  std::int64_t still_tracks = 0;   // dropped: they did not move
+  std::int64_t clutter = 0;        // places where something stood from the start (static_clutter.h)
+  Separability separability;       // of the first seconds; not enough: there are no tracks
+  bool camera_moves = false;       // and was followed
   std::vector<Suspicion> suspicions;  // the likeliest mistake first
   MotionNoise noise;                  // as learned, with constant velocity
   double correlation = 0;             // of Singer's model where that predicts better [frames]
