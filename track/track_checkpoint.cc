@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kLayout = 2;  // of the saved state: another whenever something else is saved
+
 // As a visitor of Describe.
 struct TextOfOptions {
   std::string text;
@@ -48,7 +50,8 @@ std::string FingerprintOf(const TrackerOptions& options, const fs::path& footage
   TextOfOptions described;
   TrackerOptions copy = options;
   Describe(described, copy);
-  std::string text = "flocklift " FLOCKLIFT_VERSION "\n" + described.text;
+  std::string text =
+      fmt::format("flocklift {} state {}\n", FLOCKLIFT_VERSION, kLayout) + described.text;
   const std::vector<fs::path> pictures = FootagePictures(footage);
   if (pictures.empty()) AppendFile(fs::absolute(footage), &text);
   for (const fs::path& picture : pictures) AppendFile(fs::absolute(picture), &text);

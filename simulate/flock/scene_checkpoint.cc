@@ -3,6 +3,8 @@
 
 #include "simulate/flock/scene_checkpoint.h"
 
+#include <fmt/format.h>
+
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
@@ -17,6 +19,8 @@ namespace flocklift {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kLayout = 2;  // of the saved state: another whenever something else is saved
 
 struct Motion6 {
   Vec3d position, velocity;
@@ -58,7 +62,8 @@ bool Parse(std::string_view bytes, const std::string& fingerprint, SavedState* s
 SceneCheckpoint::SceneCheckpoint(fs::path folder, std::chrono::seconds every, const Scene& scene)
     : folder_(std::move(folder)), every_(every), last_(std::chrono::steady_clock::now()) {
   if (!folder_.empty()) {
-    fingerprint_ = std::string("flocklift ") + FLOCKLIFT_VERSION + "\n" + FormatScene(scene);
+    fingerprint_ =
+        fmt::format("flocklift {} state {}\n", FLOCKLIFT_VERSION, kLayout) + FormatScene(scene);
   }
 }
 
