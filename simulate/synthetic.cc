@@ -41,12 +41,8 @@ std::optional<Detection> ObserveBody(const FlyingAnimal& animal, double time, co
   const auto body = ProjectBody(animal, time, camera, cam_from_world);
   if (!body || !camera.Sees(body->center)) return std::nullopt;
   const Box bounds = BoundsOf(body->silhouette);
-  const double half_width =
-      std::max(body->center.x - bounds.left, bounds.left + bounds.width - body->center.x);
-  const double half_height =
-      std::max(body->center.y - bounds.top, bounds.top + bounds.height - body->center.y);
   Detection seen;
-  seen.box = Box::Around(body->center, 2 * half_width, 2 * half_height);
+  seen.box = Box::Around(body->center, bounds.width, bounds.height);
   seen.shape = ShapeOf(body->moments);
   if (surfaces != nullptr) seen.visibility = VisibleShare(*body, *surfaces);
   return seen;

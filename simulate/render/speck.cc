@@ -47,13 +47,16 @@ Values Measure(const Animal& animal, double azimuth, double up) {
   for (std::size_t k = 0; k < kReaches; ++k) {
     const double angle = kPi * static_cast<double>(k) / kReaches;
     const double c = std::cos(angle), s = std::sin(angle);
+    double least = 0, most = 0;  // of the centroid's place along the direction
     for (const ConvexPolygon& polygon : polygons) {
       for (std::size_t i = 0; i < static_cast<std::size_t>(polygon.corners); ++i) {
         const Vec2d& p = polygon.corner[i];
-        values[4 + k] =
-            std::max(values[4 + k], std::abs(c * (p.x - m.centroid.x) + s * (p.y - m.centroid.y)));
+        const double along = c * (p.x - m.centroid.x) + s * (p.y - m.centroid.y);
+        least = std::min(least, along);
+        most = std::max(most, along);
       }
     }
+    values[4 + k] = 0.5 * (most - least);
   }
   return values;
 }

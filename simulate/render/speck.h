@@ -45,8 +45,8 @@ class SpeckAreas {
     Vec3d x, y;                             // unit vectors, body frame
     double area;                            // [m^2]
     double xx, xy, yy;                      // second moments [m^2]
-    std::array<double, kDirections> reach;  // how far it extends, to either side, along
-                                            // (cos a, sin a), a = pi k / kDirections [m]
+    std::array<double, kDirections> reach;  // half its extent along (cos a, sin a),
+                                            // a = pi k / kDirections [m]
 
     // The same along any direction, times its length.
     double Reach(const Vec2d& direction) const;
@@ -81,7 +81,7 @@ std::optional<Speck> ProjectSpeck(const FlyingAnimal& animal, double time, doubl
                                   const SpeckAreas& areas, const Camera& camera,
                                   const Rigid3d& cam_from_world);
 
-// What the outline would be measured for: a box about the projected position, and moments.
+// What the outline would be measured for: extent and moments.
 struct SpeckBox {
   double half_width = 0, half_height = 0;  // [px]
   SilhouetteMoments moments;               // [px^2], about the projected position [px]

@@ -69,11 +69,9 @@ TEST(SpeckTest, HasTheAreaOfTheSilhouette) {
   }
 }
 
-// Half the extent of a silhouette about its centroid.
 Vec2d HalfExtent(const ProjectedBody& body) {
   const Box box = BoundsOf(body.silhouette);
-  return {std::max(body.center.x - box.left, box.left + box.width - body.center.x),
-          std::max(body.center.y - box.top, box.top + box.height - body.center.y)};
+  return {0.5 * box.width, 0.5 * box.height};
 }
 
 TEST(SpeckTest, HasTheBoxAndTheMomentsOfTheSilhouette) {
