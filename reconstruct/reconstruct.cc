@@ -127,19 +127,19 @@ double MedianTurn(const std::vector<SolvedPath>& paths) {
 }
 
 std::string DescribeObservability(const Knowledge& knowledge, const Segments& segments,
-                                  const std::vector<SolvedPath>& paths,
-                                  const ReconstructReport& report) {
+                                  const BatchResult& batch, const ReconstructReport& report) {
   bool sizes = false;
   for (const Segment& segment : segments.segments) {
     for (const Sighting& s : segment.sightings) sizes |= s.log_size.has_value();
   }
   constexpr double kStraight = 30 * kDegree;
-  const bool straight = MedianTurn(paths) < kStraight;
+  const bool straight = MedianTurn(batch.paths) < kStraight;
   std::string text = "relative depth rests on ";
   text += sizes ? "apparent size and image speed" : "image speed";
   text += straight ? "; the paths are nearly straight, so perspective along them says little"
                    : " and on perspective along curved paths";
   if (knowledge.up_in_cam) text += "; level flight helps";
+  if (batch.report.stiff_boxes > 0.5) text += "; boxes are as large from every side";
   text += "; median relative sd " + Percent(report.relative_sd) + ", common scale " +
           Percent(report.scale_sd) + " (" + report.scale_from + ")";
   return text;
@@ -297,7 +297,7 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
     report.warnings.push_back("the solver stopped before the cost stood still");
   }
   WarnOfDisagreement(knowledge, batch.report, &report);
-  report.observability = DescribeObservability(knowledge, segments, batch.paths, report);
+  report.observability = DescribeObservability(knowledge, segments, batch, report);
   if (report.dynamics) report.observability += DescribeDynamics(*report.dynamics);
   result.trajectories = Assemble(axes, knowledge, segments, batch.paths, fps, true);
   return result;

@@ -218,14 +218,6 @@ void CutJumps(double jump, double doubt, std::vector<Segment>* segments, int* cu
   *segments = std::move(result);
 }
 
-// A box that the edge of the picture cuts off shows neither the size nor the middle of the animal.
-bool IsCutOff(const Box& box, const Camera& camera) {
-  constexpr double kMargin = 1.5;  // [px]
-  return box.left < kMargin || box.top < kMargin ||
-         box.left + box.width > camera.width - 1 - kMargin ||
-         box.top + box.height > camera.height - 1 - kMargin;
-}
-
 }  // namespace
 
 Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const Camera& camera,
@@ -243,6 +235,7 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
   result.pixel_sd = std::max(EstimatePixelSd(axes, camera, tracks), options.min_pixel_sd);
   const std::optional<double> box_over_shape = MedianBoxOverShape(tracks);
   result.has_shapes = box_over_shape.has_value();
+  result.form = FormOfBoxes(tracks, camera);
   for (const Tracklet& tracklet : tracks.tracklets) {
     Segment segment{tracklet.id, {}};
     for (const Detection& d : tracklet.detections) {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "reconstruct/initialize/box_form.h"
 #include "simulate/camera/camera.h"
 #include "simulate/core/observations.h"
 #include "simulate/core/rigid3.h"
@@ -59,6 +60,7 @@ struct Segments {
   int unusable = 0;               // detections without a ray (beyond the fold of the distortion,
                                   // or far beside where the camera looks on average)
   bool has_shapes = false;        // sizes come from shapes
+  BoxForm form;                   // of the boxes, also where sizes come from shapes
   // Places of a moving camera in every frame from the first on, reference axes [m]; empty: at rest.
   std::vector<Vec3d> camera_places;
   double fps = 0;  // frames per second of the places

@@ -131,6 +131,7 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
     done += iterations;
     if (!belief) {
       result.report.speed_against_size = solved.result.report.speed_against_size;
+      result.report.stiff_boxes = solved.result.report.stiff_boxes;
     }
     belief = solved.belief;
     result.report.flock_speed = solved.result.report.flock_speed;

@@ -47,6 +47,8 @@ struct BatchReport {
   Uncertain size_ratio;          // posterior, relative to the wingspan's prior
   Uncertain lean;                // into turns (cost_functions/size.h), posterior
   Uncertain speed_against_size;  // log of (speed by the sizes over speed by its prior)
+  double stiff_boxes = 0;        // probability that boxes do not follow the bodies in them
+                                 // (size_model.h); 0 where no wingspan is known
   std::vector<std::pair<std::string, double>> spreads;  // estimated
   std::vector<TermStatistics> terms;
 };

@@ -18,7 +18,7 @@ struct BatchOptions {
   double speed_time = 0.8;
   double size_sd = 0.15;
   double size_time = 0.15;
-  double size_ratio_sd = 0.15;
+  double size_ratio_sd = 0.05;
   double climb_sd = 0.12;
   double climb_time = 1;
   double depth_time = 15;
@@ -52,7 +52,7 @@ void Describe(Visitor& visit, BatchOptions& o) {
   visit("size-time", o.size_time, {.low = 0.001, .high = 100}, "s",
         "how long an error of apparent size lasts");
   visit("size-ratio-sd", o.size_ratio_sd, {.low = 0.001, .high = 2}, "",
-        "how badly the relation of box to wingspan is known (log)");
+        "how badly box sizes are known when pose, body length and wingbeat are (log)");
   visit("climb-sd", o.climb_sd, {.low = 0.001, .high = 2}, "",
         "spread of the sine of the climb angle; first guess");
   visit("climb-time", o.climb_time, {.low = 0.01, .high = 100}, "s", "how long a climb lasts");

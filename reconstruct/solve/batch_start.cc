@@ -20,9 +20,10 @@ constexpr double kVague = 3;
 // second moments of a silhouette weigh body and wings by area and vary more than boxes.
 constexpr Uncertain kTrunkOfBoxes{-1.2, 0.4}, kUpOfBoxes{-2.2, 0.7};
 constexpr Uncertain kTrunkOfShapes{-1.2, 0.6}, kUpOfShapes{-1.6, 0.7};
-// Log of (root mean square of a box's diagonal over all views, over the wingspan): 0 to -0.1
-// gliding (the extents above add up to 5/6 of the span), -0.2 and less beating; blur adds a little.
-constexpr double kRatioMean = -0.15;
+// Log of (root mean square of a box's diagonal over all views, over the wingspan), until headings
+// are known well enough for box_of_body.h: 0 to -0.1 gliding (the extents above add up to 5/6 of
+// the span), -0.2 and less beating; blur adds a little.
+constexpr Uncertain kRatio{-0.2, 0.15};
 // How far they lean into their turns: 1 where lift alone carries weight and curve, 0 not at all.
 constexpr Uncertain kLeanIntoTurns{0.7, 0.5};
 
@@ -195,9 +196,10 @@ BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
   if (knowledge.far) model.log_far = std::log(*knowledge.far);
   model.flock_log_speed = {guess.log_speed,
                            knowledge.speed ? knowledge.speed->sd / knowledge.speed->mean : kVague};
-  model.size_ratio = knowledge.wingspan
-                         ? Uncertain{kRatioMean, std::hypot(options.size_ratio_sd, s.size_between)}
-                         : Uncertain{guess.log_width, kVague};
+  model.size_ratio =
+      knowledge.wingspan
+          ? Uncertain{kRatio.mean, std::hypot(options.size_ratio_sd, kRatio.sd, s.size_between)}
+          : Uncertain{guess.log_width, kVague};
   model.log_trunk = segments.has_shapes ? kTrunkOfShapes : kTrunkOfBoxes;
   model.log_up = segments.has_shapes ? kUpOfShapes : kUpOfBoxes;
   model.lean = kLeanIntoTurns;

@@ -13,14 +13,17 @@
 #include "reconstruct/cost_functions/path.h"
 #include "reconstruct/solve/batch_solver.h"
 #include "reconstruct/solve/batch_start.h"
+#include "reconstruct/solve/box_of_body.h"
+#include "reconstruct/solve/size_model.h"
 #include "reconstruct/solve/spread_estimator.h"
 #include "simulate/core/parallel_for.h"
 
 namespace flocklift::internal {
 namespace {
 
-// One round of expectation maximisation of the spreads at the present solution.
-void EstimateSpreads(const Spreads& guess, BatchState* state, BatchSolver* solver) {
+// One round of expectation maximisation of the spreads at the present solution. Returns the
+// covariance of the flock's unknowns.
+Eigen::MatrixXd EstimateSpreads(const Spreads& guess, BatchState* state, BatchSolver* solver) {
   const Eigen::MatrixXd covariance = solver->Linearize();
   constexpr double kInterval = 0.5;  // between the errors that are looked at [s]
   const int stride =
@@ -52,6 +55,7 @@ void EstimateSpreads(const Spreads& guess, BatchState* state, BatchSolver* solve
     for (std::size_t k = 2; k < bird.path.size(); k += 3) sum += bird.path[k];
     bird.reference_depth = std::exp(sum * 3 / static_cast<double>(bird.path.size()));
   }
+  return covariance;
 }
 
 // How the animals turn as far as is known now, for their lean (cost_functions/size.h).
@@ -67,6 +71,28 @@ void UpdateCurves(BatchState* state) {
           std::exp(q.l) / kGravity * AccelerationOverDepth(q, state->model.camera.At(time));
     }
   }
+}
+
+// How boxes relate to the wingspan in these views, as far as headings are known now.
+// Returns how probably they are as large from every side.
+double UpdateSizeModel(const BatchOptions& options, const BoxForm& form, const SizeModel& usual,
+                       const Eigen::MatrixXd& covariance, BatchState* state) {
+  BatchModel& model = state->model;
+  const SizeModel used{model.size_ratio, model.log_trunk, model.log_up};
+  static_assert(kLogTrunk == kSizeRatio + 1 && kLogUp == kSizeRatio + 2);
+  const SizeLikelihood likelihood(state->shared.segment<3>(kSizeRatio),
+                                  covariance.block<3, 3>(kSizeRatio, kSizeRatio), used);
+  const double sd = std::hypot(options.size_ratio_sd, model.spreads.size_between);
+  SizeModel body = usual;
+  body.ratio = ExpectedBoxRatio(model, state->birds, state->shared, sd);
+  SizeModel stiff = StiffSizes(form);
+  stiff.ratio.sd = std::hypot(stiff.ratio.sd, model.spreads.size_between);
+  const double p = ProbabilityOfStiff(likelihood, form, body, stiff);
+  const SizeModel next = Mixture(p, body, stiff);
+  model.size_ratio = next.ratio;
+  model.log_trunk = next.log_trunk;
+  model.log_up = next.log_up;
+  return p;
 }
 
 SolvedPoint PointAt(const BatchModel& model, const Bird& bird, const Bird::Place& place) {
@@ -198,9 +224,15 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   report.converged = solver.Minimize(options.max_iterations, &report.iterations, on_iteration);
   if (options.estimate) {
     const Spreads first_guess = state.model.spreads;
+    const BatchModel& model = state.model;
+    const SizeModel usual{model.size_ratio, model.log_trunk, model.log_up};
+    const bool size_is_known = knowledge.wingspan && model.use_size && !model.belief;
     for (int round = 0; round < kSpreadRounds; ++round) {
-      EstimateSpreads(first_guess, &state, &solver);
+      const Eigen::MatrixXd covariance = EstimateSpreads(first_guess, &state, &solver);
       UpdateCurves(&state);
+      if (size_is_known) {
+        report.stiff_boxes = UpdateSizeModel(options, segments.form, usual, covariance, &state);
+      }
       report.converged = solver.Minimize(kSpreadIterations, &report.iterations, on_iteration);
     }
   }

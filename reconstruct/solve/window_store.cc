@@ -72,7 +72,7 @@ std::string BytesOf(const SolvedWindow& solved) {
     out.Put(path);
   }
   const BatchReport& r = solved.result.report;
-  out.Put(std::array{r.initial_cost, r.final_cost, r.scale_sd});
+  out.Put(std::array{r.initial_cost, r.final_cost, r.scale_sd, r.stiff_boxes});
   out.Put(r.iterations);
   out.Put(r.converged);
   out.Put(std::array{r.flock_speed, r.size_ratio, r.lean, r.speed_against_size});
@@ -106,7 +106,7 @@ SolvedWindow WindowFrom(std::string_view bytes) {
     in.Take(&path);
   }
   BatchReport& r = solved.result.report;
-  for (double* x : {&r.initial_cost, &r.final_cost, &r.scale_sd}) in.Take(x);
+  for (double* x : {&r.initial_cost, &r.final_cost, &r.scale_sd, &r.stiff_boxes}) in.Take(x);
   in.Take(&r.iterations);
   in.Take(&r.converged);
   for (Uncertain* u : {&r.flock_speed, &r.size_ratio, &r.lean, &r.speed_against_size}) in.Take(u);

@@ -89,6 +89,23 @@ TEST_F(Twin, DepthsAreFoundWithSize) {
   ExpectFinite(result.trajectories);
 }
 
+// Balls, not birds: the scale comes out as well when measuring spoils the form of their boxes.
+TEST_F(Twin, BoxesThatFollowNoBodyAreFoundOut) {
+  for (Tracklet& tracklet : tracks_.tracklets) {
+    Rng rng(3, static_cast<std::uint64_t>(tracklet.id));
+    for (Detection& d : tracklet.detections) {
+      const double width = d.box.width * std::exp(0.08 * rng.Normal());
+      const double height = d.box.height * std::exp(0.08 * rng.Normal());
+      d.box = Box::Around(d.box.Center(), width, height);
+    }
+  }
+  const auto result = Reconstruct(TrueKnowledge(flock_), tracks_, camera_, flock_.fps, 1, {});
+  const Scores scores = Score(truth_, result.trajectories, camera_);
+  EXPECT_LT(scores.median, 0.03);
+  EXPECT_NEAR(scores.scale, 1, 0.12);
+  EXPECT_THAT(result.report.observability, testing::HasSubstr("as large from every side"));
+}
+
 TEST_F(Twin, DepthsAreFoundWithoutSize) {
   ReconstructOptions options = TrueKnowledge(flock_);
   options.knowledge.use_size = false;
