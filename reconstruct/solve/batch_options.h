@@ -50,7 +50,7 @@ void Describe(Visitor& visit, BatchOptions& o) {
   visit("size-sd", o.size_sd, {.low = 0.001, .high = 2}, "",
         "relative spread of apparent size by wingbeat and pose; first guess");
   visit("size-time", o.size_time, {.low = 0.001, .high = 100}, "s",
-        "how long an error of apparent size lasts");
+        "how long an error of apparent size lasts; first guess");
   visit("size-ratio-sd", o.size_ratio_sd, {.low = 0.001, .high = 2}, "",
         "how badly box sizes are known when pose, body length and wingbeat are (log)");
   visit("climb-sd", o.climb_sd, {.low = 0.001, .high = 2}, "",

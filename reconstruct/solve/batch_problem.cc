@@ -227,13 +227,10 @@ void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd
 }
 
 void ForEachError(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
-                  int stride, const RowSink& take) {
+                  const RowSink& take) {
   for (int knot = 0; knot < bird.knots; ++knot) {
-    const bool on_stride = knot % stride == 0;
-    if (!on_stride && !(model.use_depth && CountsForDepth(model, bird, knot))) continue;
     ForEachFeature(model, bird, shared, true, knot,
                    [&](Term term, int /*axis*/, const Feature& feature) {
-                     if (!on_stride && term != Term::kDepth) return;
                      ResidualRow row;
                      row.first = 3 * knot;
                      row.residual = feature.value;

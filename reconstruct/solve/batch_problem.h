@@ -98,9 +98,9 @@ struct BatchModel {
 void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                 bool derivatives, const RowSink& take);
 
-// The unwhitened errors e of the Markov terms, one row each, at every `stride`-th knot.
+// The unwhitened errors e of the Markov terms at every knot, one row each, with derivatives.
 void ForEachError(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
-                  int stride, const RowSink& take);
+                  const RowSink& take);
 
 double CostOf(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared);
 

@@ -13,7 +13,20 @@ namespace {
 // better than depths do.
 constexpr double kGuessWorth = 4, kWidthWorth = 30;
 
+ResidualRow Combine(double factor, const ResidualRow& a, const ResidualRow& b) {
+  ResidualRow row = a;
+  row.residual = b.residual + factor * a.residual;
+  for (double& derivative : row.path) derivative *= factor;
+  for (std::size_t k = 3; k < row.path.size(); ++k) row.path[k] += b.path[k - 3];
+  for (int k = 0; k < row.border_count; ++k) row.border[k].second *= factor;
+  for (int k = 0; k < b.border_count; ++k) row.AddBorder(b.border[k].first, b.border[k].second);
+  return row;
+}
+
 }  // namespace
+
+ErrorPair::ErrorPair(const ResidualRow& a, const ResidualRow& b)
+    : sum(Combine(1, a, b)), difference(Combine(-1, a, b)) {}
 
 void SpreadEstimator::BeginAnimal(double duration) {
   constexpr double kWhole = 1;  // [s]
@@ -29,15 +42,27 @@ void SpreadEstimator::Add(Term term, double error, double variance) {
   counts_[k] += 1;
 }
 
+void SpreadEstimator::AddSizePair(double sum, double sum_variance, double difference,
+                                  double difference_variance) {
+  const double sd = now_.size.sd;
+  const double larger = 0.5 * (std::abs(sum) + std::abs(difference));  // of the two errors
+  const double weight = RobustWeight(Term::kSize, larger / sd);
+  const double bound = 36 * sd * sd;
+  sums_ += weight * sum * sum + std::min(sum_variance, bound);
+  differences_ += weight * difference * difference + std::min(difference_variance, bound);
+}
+
 void SpreadEstimator::Merge(const SpreadEstimator& other) {
   animals_ += other.animals_;
+  sums_ += other.sums_;
+  differences_ += other.differences_;
   for (std::size_t k = 0; k < kTermCount; ++k) {
     squares_[k] += other.squares_[k];
     counts_[k] += other.counts_[k];
   }
 }
 
-void SpreadEstimator::Update(const Spreads& guess, Spreads* spreads) const {
+void SpreadEstimator::Update(const Spreads& guess, double knot_interval, Spreads* spreads) const {
   const auto update = [&](Term term, double first, double* sd, double worth = kGuessWorth) {
     const std::size_t k = static_cast<std::size_t>(term);
     if (counts_[k] == 0) return;
@@ -53,6 +78,14 @@ void SpreadEstimator::Update(const Spreads& guess, Spreads* spreads) const {
   update(Term::kDepth, guess.depth.sd, &spreads->depth.sd, kWidthWorth);
   update(Term::kSpeedSpread, guess.speed_between, &spreads->speed_between);
   update(Term::kTurn, guess.turn.sd, &spreads->turn.sd);
+  if (sums_ + differences_ > 0) {
+    const double found = (sums_ - differences_) / (sums_ + differences_);
+    const double first = guess.size.Correlation(knot_interval);
+    const double next = (animals_ * found + kGuessWorth * first) / (animals_ + kGuessWorth);
+    constexpr double kNone = 1e-6;  // errors of one knot tell nothing of the next
+    const double time = -knot_interval / std::log(std::max(next, kNone));
+    spreads->size.time = std::clamp(time, 0.1 * guess.size.time, 10 * guess.size.time);
+  }
 }
 
 double SpreadEstimator::SdOf(Term term) const {

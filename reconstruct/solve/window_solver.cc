@@ -34,8 +34,20 @@ Eigen::MatrixXd EstimateSpreads(const Spreads& guess, BatchState* state, BatchSo
     const ArrowSystem& system = solver->work(i).system;
     const ArrowSystem::Posterior posterior = system.Covariance(covariance);
     of_bird[i].BeginAnimal((bird.knots - 1) * state->model.knot_interval);
-    ForEachError(state->model, bird, state->shared, stride, [&](Term term, const ResidualRow& row) {
-      of_bird[i].Add(term, row.residual, system.VarianceOf(posterior, row));
+    std::optional<ResidualRow> last_size;
+    ForEachError(state->model, bird, state->shared, [&](Term term, const ResidualRow& row) {
+      const bool on_stride = row.first / 3 % stride == 0;
+      if (on_stride || term == Term::kDepth) {
+        of_bird[i].Add(term, row.residual, system.VarianceOf(posterior, row));
+      }
+      if (term != Term::kSize) return;
+      if (on_stride && last_size && last_size->first + 3 == row.first) {
+        const ErrorPair pair(*last_size, row);
+        of_bird[i].AddSizePair(pair.sum.residual, system.VarianceOf(posterior, pair.sum),
+                               pair.difference.residual,
+                               system.VarianceOf(posterior, pair.difference));
+      }
+      last_size = row;
     });
     ResidualRow own;
     own.AddBorder(kOwnLogSpeed, 1);
@@ -49,7 +61,7 @@ Eigen::MatrixXd EstimateSpreads(const Spreads& guess, BatchState* state, BatchSo
   for (int i = model.turn.first; i < model.turn.end(); ++i) {
     all.Add(Term::kTurn, state->shared[i], covariance(i, i));
   }
-  all.Update(guess, &state->model.spreads);
+  all.Update(guess, model.knot_interval, &state->model.spreads);
   for (Bird& bird : state->birds) {
     double sum = 0;
     for (std::size_t k = 2; k < bird.path.size(); k += 3) sum += bird.path[k];

@@ -5,12 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "simulate/core/rng.h"
 
 namespace flocklift::internal {
 namespace {
+
+constexpr double kKnotInterval = 0.1;
 
 Spreads Guess(double speed_sd) {
   Spreads spreads;
@@ -30,7 +34,7 @@ TEST(SpreadEstimator, ByHand) {
   other.Add(Term::kSpeed, 0.5, 0.03);
   one.Merge(other);
   Spreads next = guess;
-  one.Update(guess, &next);
+  one.Update(guess, kKnotInterval, &next);
   const double mean = (0.09 + 0.01 + 0.01 + 0.02 + 0.25 + 0.03) / 3;
   EXPECT_NEAR(next.speed.sd, std::sqrt((1.5 * mean + 4 * 0.04) / 5.5), 1e-12);
   EXPECT_EQ(next.turn.sd, guess.turn.sd);  // of which nothing was said
@@ -42,7 +46,7 @@ TEST(SpreadEstimator, OutliersAndVaguePosteriorsAreBounded) {
   estimator.BeginAnimal(10);
   estimator.Add(Term::kSpeed, 1, 5);  // 10 sds, of which Huber's loss counts 3
   Spreads next = guess;
-  estimator.Update(guess, &next);
+  estimator.Update(guess, kKnotInterval, &next);
   EXPECT_NEAR(next.speed.sd, std::sqrt((0.3 + 0.09 + 4 * 0.01) / 5), 1e-12);
 }
 
@@ -58,9 +62,74 @@ TEST(SpreadEstimator, ManyAnimalsOutweighTheGuess) {
       Rng rng(1, animal);
       for (int k = 0; k < 20; ++k) estimator.Add(Term::kSpeed, 0.25 * rng.Normal(), 0);
     }
-    estimator.Update(guess, &next);
+    estimator.Update(guess, kKnotInterval, &next);
   }
   EXPECT_NEAR(next.speed.sd, 0.25, 0.01);
+}
+
+TEST(SpreadEstimator, APairIsSumAndDifferenceWithDerivatives) {
+  ResidualRow a, b;
+  a.first = 6;
+  a.residual = 2;
+  b.first = 9;
+  b.residual = 5;
+  for (std::size_t k = 0; k < 9; ++k) {  // three control points
+    a.path[k] = 1 + static_cast<double>(k);
+    b.path[k] = 100 * (1 + static_cast<double>(k));
+  }
+  a.AddBorder(1, 7);
+  b.AddBorder(4, 11);
+  b.AddBorder(1, 13);
+  const ErrorPair pair(a, b);
+  EXPECT_EQ(pair.sum.first, 6);
+  EXPECT_EQ(pair.sum.residual, 7);
+  EXPECT_EQ(pair.difference.residual, 3);
+  const std::array<double, 12> sum = {1, 2, 3, 104, 205, 306, 407, 508, 609, 700, 800, 900};
+  const std::array<double, 12> difference = {-1,  -2,  -3,  96,  195, 294,
+                                             393, 492, 591, 700, 800, 900};
+  EXPECT_EQ(pair.sum.path, sum);
+  EXPECT_EQ(pair.difference.path, difference);
+  ASSERT_EQ(pair.difference.border_count, 2);
+  EXPECT_EQ(pair.sum.border[0], (std::pair<int, double>(1, 20)));
+  EXPECT_EQ(pair.difference.border[0], (std::pair<int, double>(1, 6)));
+  EXPECT_EQ(pair.difference.border[1], (std::pair<int, double>(4, 11)));
+}
+
+// Pairs of a process of variance 0.01 whose correlation is known, as a posterior has them that
+// leaves a part of either error open.
+TEST(SpreadEstimator, FindsHowLongAnErrorOfSizeLasts) {
+  Spreads guess = Guess(0.1);
+  guess.size = {0.2, 0.15};
+  constexpr double kVariance = 0.01, kOpen = 0.003;
+  const double known_sd = std::sqrt(kVariance - kOpen);
+  for (const double time : {0.05, 0.15, 0.25}) {
+    const double rho = std::exp(-kKnotInterval / time);
+    const double of_known = rho * kVariance / (kVariance - kOpen);
+    SpreadEstimator estimator(guess);
+    for (std::uint64_t animal = 0; animal < 2000; ++animal) {
+      estimator.BeginAnimal(10);
+      Rng rng(2, animal);
+      const double a = known_sd * rng.Normal();
+      const double b = of_known * a + known_sd * std::sqrt(1 - of_known * of_known) * rng.Normal();
+      estimator.AddSizePair(a + b, 2 * kOpen, b - a, 2 * kOpen);
+    }
+    Spreads next = guess;
+    estimator.Update(guess, kKnotInterval, &next);
+    EXPECT_NEAR(next.size.Correlation(kKnotInterval), rho, 0.04);
+  }
+}
+
+TEST(SpreadEstimator, AnErrorOfSizeMayBeGoneAtTheNextKnot) {
+  Spreads guess = Guess(0.1);
+  guess.size = {0.1, 0.15};
+  SpreadEstimator estimator(guess);
+  for (int animal = 0; animal < 40; ++animal) {
+    estimator.BeginAnimal(10);
+    estimator.AddSizePair(0, 0, 0.1, 0);
+  }
+  Spreads next = guess;
+  estimator.Update(guess, kKnotInterval, &next);
+  EXPECT_NEAR(next.size.time, 0.015, 1e-12);  // a tenth of the guess, at least
 }
 
 }  // namespace
