@@ -17,6 +17,7 @@
 #include "simulate/core/text.h"
 #include "tools/evaluate_files.h"
 #include "tools/fit_comparison.h"
+#include "tools/fit_kernels.h"
 #include "tools/stage.h"
 #include "tools/walls.h"
 
@@ -151,6 +152,17 @@ void PrintTable(const FitResult& result) {
 }  // namespace
 
 void RunFit(const FitCommand& command, const CommonOptions& common) {
+  if (command.model == kKernelsModel) {
+    RunKernelFit(command, common);
+    return;
+  }
+  Check(command.also.empty(), "--also is for --model kernels: others are fitted to one file");
+  KernelFitOptions kernels = command.kernels;  // to be compared with
+  kernels.bridged_gap = command.fit.bridged_gap;
+  for (const std::string& name : command.compare) {
+    Check(name != kKernelsModel || kernels.order == 2,
+          "--compare kernels needs --order 2: the other models make accelerations");
+  }
   Stage stage("fit", common);
   stage.options() = {{"model", command.model},  {"free", command.free}, {"set", command.set},
                      {"walls", command.walls},  {"goal", command.goal}, {"method", command.method},
@@ -192,8 +204,9 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
   if (!result.IsUsable()) {
     throw CannotFit(command.trajectories.string() + ": " + StatusText(result.status));
   }
-  const std::vector<ModelScore> scores = CompareModels(
-      options, problem, command.compare, trajectories, *fps, common.seed, common.ThreadCount());
+  const std::vector<ModelScore> scores =
+      CompareModels(options, problem, kernels, command.compare, {trajectories}, *fps, common.seed,
+                    common.ThreadCount());
   WriteParameters(common.out / "parameters.toml", result.parameters);
   for (const std::string& warning : result.warnings) stage.Warn(warning);
   stage.figures() = AsJson(result);
@@ -216,15 +229,25 @@ void AddFitCommand(CLI::App& app) {
       "  flocklift fit trajectories.csv --compare boids,linear\n"
       "  flocklift fit truth/trajectories.csv --walls=-20,-20,2,20,20,22\n"
       "  flocklift fit trajectories.csv --model swarm --set evolution=3 --goal 0,0,5,4\n"
+      "  flocklift fit first.csv --also second.csv --model kernels --out kernels\n"
       "  flocklift fit trajectories.csv --model bswarm --start parameters.toml --walls=0,0,0,1,1,1",
       {.fps = true, .seed = true}, &RunFit, &command);
   sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
-  sub->add_option("--model", command->model, "the model; `flocklift simulate --list` names them")
+  sub->add_option("--model", command->model,
+                  "the model; `flocklift simulate --list` names them; or kernels: attraction and "
+                  "alignment as curves over distance, without a form, with 95 % bands (writes "
+                  "kernels.csv and kernels.svg, no parameters.toml)")
       ->capture_default_str();
+  sub->add_option("--also", command->also,
+                  "of kernels: another film of the same kind of flock, counted with the first; "
+                  "once for each")
+      ->allow_extra_args(false);
   sub->add_option(
          "--free", command->free,
          "what to fit, separated by commas: weights and, of smooth models (tapers above 0, no "
-         "cruise, noise_time 0), radii too; default: all weights")
+         "cruise, noise_time 0), radii too; of kernels attraction, alignment; default: all "
+         "weights, "
+         "or kernels")
       ->delimiter(',');
   sub->add_option("--set", command->set, "NAME=VALUE of parameters that are not free")
       ->delimiter(',');
@@ -250,11 +273,14 @@ void AddFitCommand(CLI::App& app) {
                   "of simulated statistics: crs or isres, then bobyqa, or bobyqa alone")
       ->check(CLI::IsMember({"bobyqa", "crs", "isres"}))
       ->capture_default_str();
-  sub->add_option("--compare", command->compare,
-                  "models, separated by commas, to be fitted to all but the last part of the time "
-                  "too (--held-out) and compared there, with constant velocity, as a table")
+  sub->add_option(
+         "--compare", command->compare,
+         "models, separated by commas, to be fitted to all but the last part of the time "
+         "too (--held-out) and compared there, with constant velocity, as a table; kernels "
+         "among them")
       ->delimiter(',');
   AddFlags(*sub, command->fit, "Fit");
+  AddFlags(*sub, command->kernels, "Model kernels");
 }
 
 }  // namespace flocklift

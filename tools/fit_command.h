@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// `flocklift fit`: the interaction parameters behind trajectories.
+// `flocklift fit`: the interaction parameters, or kernels, behind trajectories.
 
 #ifndef FLOCKLIFT_TOOLS_FIT_COMMAND_H_
 #define FLOCKLIFT_TOOLS_FIT_COMMAND_H_
@@ -13,16 +13,18 @@
 #include <vector>
 
 #include "reconstruct/fit/fit.h"
+#include "reconstruct/fit/kernel_fit.h"
 #include "tools/command.h"
 
 namespace flocklift {
 
 struct FitCommand {
   std::filesystem::path trajectories = {};
+  std::vector<std::filesystem::path> also = {};  // more films of the flock, of kernels only
   std::filesystem::path camera = {};  // empty: depth errors point away from the world's origin
   std::filesystem::path start = {};   // parameters.toml that gives what is not free
   std::string model = "boids";
-  std::vector<std::string> free = {};     // empty: every weight
+  std::vector<std::string> free = {};     // empty: every weight, or kernel
   std::vector<std::string> set = {};      // "NAME=VALUE": what is not free
   std::string walls = {};                 // "X0,Y0,Z0,X1,Y1,Z1" [m]; empty: none
   std::string goal = "auto";              // auto, none, seek, "X,Y,Z" or "X,Y,Z,REACH"
@@ -30,6 +32,7 @@ struct FitCommand {
   std::string search = "crs";             // of simulated statistics
   std::vector<std::string> compare = {};  // models
   FitOptions fit = {};
+  KernelFitOptions kernels = {};  // of model kernels
 };
 
 // The data do not permit a fit: too few animals or frames. Not the input's fault: exit status 1.
@@ -38,7 +41,7 @@ class CannotFit : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Writes parameters.toml. Throws CannotFit, with nothing written.
+// Writes parameters.toml, or what fit_kernels.h says. Throws CannotFit, with nothing written.
 void RunFit(const FitCommand& command, const CommonOptions& common);
 
 void AddFitCommand(CLI::App& app);

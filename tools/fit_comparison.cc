@@ -6,19 +6,54 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
+
+#include "reconstruct/fit/kernel_prediction.h"
 
 namespace flocklift {
 namespace {
 
 constexpr const char* kConstantVelocity = "constant velocity";
 
+ModelScore ScoreModel(const FitOptions& options, const FitProblem& problem, const std::string& name,
+                      const Trajectories& trajectories, double fps, std::uint64_t seed,
+                      int threads) {
+  FitProblem other = problem;
+  other.method = FitMethod::kErrorsInVariables;
+  other.free.clear();
+  if (name != problem.model.name) {
+    other.model = ModelSpec{.name = name, .parameters = {}, .where = "--compare", .where_of = {}};
+  }
+  const FitResult result = FitModel(options, other, trajectories, fps, seed, threads);
+  ModelScore score{.model = name,
+                   .weights = result.weights.size(),
+                   .r2_held_out = result.r2_held_out,
+                   .fault = {}};
+  if (!result.IsUsable()) score.fault = StatusText(result.status);
+  return score;
+}
+
+ModelScore ScoreKernels(const FitOptions& options, const KernelFitOptions& kernels,
+                        const std::vector<Trajectories>& flocks, double fps, std::uint64_t seed,
+                        int threads) {
+  const KernelPrediction prediction =
+      PredictWithKernels(options, kernels, flocks, fps, seed, threads);
+  ModelScore score{.model = kKernelsModel,
+                   .weights = static_cast<std::size_t>(std::lround(prediction.fit.effective)),
+                   .r2_held_out = prediction.r2,
+                   .fault = {}};
+  if (!prediction.fit.IsUsable()) score.fault = StatusText(prediction.fit.status);
+  return score;
+}
+
 }  // namespace
 
 std::vector<ModelScore> CompareModels(const FitOptions& options, const FitProblem& problem,
+                                      const KernelFitOptions& kernels,
                                       const std::vector<std::string>& models,
-                                      const Trajectories& trajectories, double fps,
+                                      const std::vector<Trajectories>& flocks, double fps,
                                       std::uint64_t seed, int threads) {
   if (models.empty()) return {};
   std::vector<ModelScore> scores;
@@ -27,19 +62,9 @@ std::vector<ModelScore> CompareModels(const FitOptions& options, const FitProble
   quick.depth_draws = 0;
   if (quick.held_out == 0) quick.held_out = FitOptions().held_out;
   for (const std::string& name : models) {
-    FitProblem other = problem;
-    other.method = FitMethod::kErrorsInVariables;
-    other.free.clear();
-    if (name != problem.model.name) {
-      other.model = ModelSpec{.name = name, .parameters = {}, .where = "--compare", .where_of = {}};
-    }
-    const FitResult result = FitModel(quick, other, trajectories, fps, seed, threads);
-    ModelScore score{.model = name,
-                     .weights = result.weights.size(),
-                     .r2_held_out = result.r2_held_out,
-                     .fault = {}};
-    if (!result.IsUsable()) score.fault = StatusText(result.status);
-    scores.push_back(score);
+    scores.push_back(name == kKernelsModel
+                         ? ScoreKernels(quick, kernels, flocks, fps, seed, threads)
+                         : ScoreModel(quick, problem, name, flocks.at(0), fps, seed, threads));
   }
   const auto value = [](const ModelScore& score) {
     return score.r2_held_out.value_or(-std::numeric_limits<double>::infinity());

@@ -16,22 +16,25 @@
 #include <vector>
 
 #include "reconstruct/fit/fit.h"
+#include "reconstruct/fit/kernel_fit.h"
 
 namespace flocklift {
 
 struct ModelScore {
   std::string model;
-  std::size_t weights = 0;  // that were fitted
+  std::size_t weights = 0;  // that were fitted; of kernels: that the data decide
   std::optional<double> r2_held_out;
   std::string fault;  // why there is no score
 };
 
 // By errors-in-variables, each with all its weights and otherwise its defaults (the problem's
 // settings where it is the problem's model), best first, constant velocity among them; empty for
-// no names. Throws InputError for a model that does not exist or has no weights.
+// no names. The model `kernels` is fitted to all the flocks, every other to the first. Throws
+// InputError for a model that does not exist or has no weights.
 std::vector<ModelScore> CompareModels(const FitOptions& options, const FitProblem& problem,
+                                      const KernelFitOptions& kernels,
                                       const std::vector<std::string>& models,
-                                      const Trajectories& trajectories, double fps,
+                                      const std::vector<Trajectories>& flocks, double fps,
                                       std::uint64_t seed, int threads);
 
 nlohmann::ordered_json ScoresAsJson(const std::vector<ModelScore>& scores);

@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include "tools/plot/plot.h"
 
@@ -17,16 +20,31 @@ constexpr double kWidth = 760, kHeight = 340, kMargin = 16, kTop = 52;  // [px]
 constexpr double kDensityHeight = 0.15;  // of the panel, at its bottom
 constexpr double kHeadroom = 0.08;       // beside what is known, of its range
 
-// What the plot's classes and colours (tools/plot/plot.h) look like outside the report.
 constexpr std::string_view kStyle = R"css(
-:root { --ink: #1b2330; --muted: #5d6877; --grid: #e8ebef; --line: #dfe3e8; --panel: #ffffff;
-  --c0: #0072b2; --c1: #d55e00; --c2: #009e73; }
 text { font: 12px sans-serif; fill: var(--ink); }
 .title { font-size: 15px; font-weight: 600; }
 .label, .tick { fill: var(--muted); }
 .grid { stroke: var(--grid); fill: none; }
 .axis { stroke: var(--muted); fill: none; }
 )css";
+
+// The plot's colours (tools/plot/plot.h) outside the report. Put in as they are: viewers of SVG
+// other than browsers know no variables.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kColors = {
+    {{"var(--ink)", "#1b2330"},
+     {"var(--muted)", "#5d6877"},
+     {"var(--grid)", "#e8ebef"},
+     {"var(--c0)", "#0072b2"},
+     {"var(--c1)", "#d55e00"}}};
+
+std::string WithColors(std::string svg) {
+  for (const auto& [name, color] : kColors) {
+    for (std::size_t at = 0; (at = svg.find(name, at)) != std::string::npos; at += color.size()) {
+      svg.replace(at, name.size(), color);
+    }
+  }
+  return svg;
+}
 
 Plot KernelPlot(const FittedKernel& kernel, int order, const std::function<double(double)>& truth) {
   double low = 0, high = 0, densest = 0;
@@ -40,10 +58,9 @@ Plot KernelPlot(const FittedKernel& kernel, int order, const std::function<doubl
   const double room = kHeadroom * (high - low);
   low -= room + kDensityHeight * (high - low);
   high += room;
-  const bool per_time = order == 1 || kernel.name == "alignment";
   Plot plot({.title = kernel.name,
              .x_label = "distance [m]",
-             .y_label = per_time ? "phi [1/s]" : "phi [1/s²]",
+             .y_label = kernel.Unit(order) == "1/s" ? "phi [1/s]" : "phi [1/s²]",
              .width = kWidth,
              .height = kHeight,
              .y_low = low,
@@ -90,11 +107,16 @@ std::string KernelsPicture(const std::vector<FittedKernel>& kernels, int order,
         kTop + static_cast<double>(k) * (kHeight + kMargin), kWidth, kHeight,
         KernelPlot(kernels[k], order, truth).Svg());
   }
-  return svg + "</svg>\n";
+  return WithColors(svg + "</svg>\n");
 }
 
-std::string KernelsTable(const std::vector<FittedKernel>& kernels) {
-  std::string text = "kernel,distance,value,sd,low,high,density,known\n";
+std::string KernelsTable(const std::vector<FittedKernel>& kernels, int order) {
+  std::string text = "# units: distance m; density 1/m; value, sd, low, high";
+  for (const FittedKernel& kernel : kernels) {
+    text += fmt::format("{} {} of {}", &kernel == kernels.data() ? "" : ",", kernel.Unit(order),
+                        kernel.name);
+  }
+  text += "\nkernel,distance,value,sd,low,high,density,known\n";
   for (const FittedKernel& kernel : kernels) {
     for (const KernelPoint& point : kernel.points) {
       text += fmt::format("{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{}\n", kernel.name,

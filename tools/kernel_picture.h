@@ -19,8 +19,9 @@ namespace flocklift {
 std::string KernelsPicture(const std::vector<FittedKernel>& kernels, int order,
                            const std::vector<std::function<double(double)>>& truths = {});
 
-// CSV with header: kernel,distance,value,sd,low,high,density,known; low and high bound 95 %.
-std::string KernelsTable(const std::vector<FittedKernel>& kernels);
+// CSV with a line of units and a header: kernel,distance,value,sd,low,high,density,known; low and
+// high bound 95 %.
+std::string KernelsTable(const std::vector<FittedKernel>& kernels, int order);
 
 }  // namespace flocklift
 

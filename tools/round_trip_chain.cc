@@ -128,7 +128,9 @@ class Chain {
     all &= need(seen && !reconstruct_.is_null(), "reconstruction",
                 "reconstruct " + result + "/tracks.csv" + camera +
                     " --wingspan MEAN,SD --speed MEAN,SD --out " + result);
-    all &= need(fs::exists(result_ / "parameters.toml") && !fit_.is_null(), "fit",
+    const bool flies = !fit_.is_null() &&
+                       fit_.value("options", Json::object()).value("model", "") != kKernelsModel;
+    all &= need(fs::exists(result_ / "parameters.toml") && flies, "fit",
                 "fit " + result + "/trajectories.csv" + camera + " --out " + result);
     if (!all) return false;
     const Json replay = SummaryIn(result_ / "replay", "replay");

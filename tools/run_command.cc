@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "simulate/camera/camera_io.h"
+#include "simulate/core/check.h"
 #include "tools/report_command.h"
 #include "tools/stage.h"
 
@@ -34,6 +35,9 @@ void RunRun(const RunCommand& command, const CommonOptions& common) {
   RequireFile(command.reconstruct.camera,
               "make one with `flocklift camera` or `flocklift calibrate`");
 
+  Check(command.fit.model != kKernelsModel,
+        "--model kernels leaves nothing to replay: give a model to `run`, then `flocklift fit "
+        "trajectories.csv --model kernels` on what it wrote");
   ReadCamera(command.reconstruct.camera);  // what would fail after the tracking fails before it
   KnowledgeOf(command.reconstruct);
 

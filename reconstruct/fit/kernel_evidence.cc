@@ -24,6 +24,29 @@ constexpr double kJitter = 1e-13;    // of a penalty's diagonal
 constexpr double kLeast = 0.5;       // share of plain moments that correction leaves at least
 constexpr double kTauStep = 10;      // most that a tau changes in a round, as a factor
 
+// Where a function is least: on a grid of whole numbers, then between the neighbours of the best.
+template <typename Function>
+double Least(const Function& cost, int first, int last) {
+  double best = first, best_cost = HUGE_VAL;
+  for (int at = first; at <= last; ++at) {
+    const double here = cost(at);
+    if (here < best_cost) {
+      best_cost = here;
+      best = at;
+    }
+  }
+  double low = best - 1, high = best + 1;
+  for (int step = 0; step < 40; ++step) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    if (cost(a) < cost(b)) {
+      high = b;
+    } else {
+      low = a;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
 // Weighted normal equations.
 struct System {
   MatrixXd a;  // symmetric
@@ -33,8 +56,12 @@ struct System {
 class Solver {
  public:
   Solver(const KernelMoments& plain, const KernelMoments& corrected,
-         const KernelPenalties& penalties)
-      : plain_(plain), corrected_(corrected), penalties_(penalties), p_(plain.terms) {
+         const KernelPenalties& penalties, std::optional<double> position_variance)
+      : plain_(plain),
+        corrected_(corrected),
+        penalties_(penalties),
+        p_(plain.terms),
+        known_s2_(position_variance) {
     double squares = 0;
     for (const auto& [place, bin] : plain.bins) {
       lambda_.push_back(bin.lambda / bin.rows);
@@ -47,6 +74,7 @@ class Solver {
     smallest_ = kSmallest * squares / std::max(1.0, total_);
     s2_ = squares / std::max(1.0, total_) + 1e-300;
     d_ = s2_ * middle_;
+    if (known_s2_) s2_ = *known_s2_;
   }
 
   KernelEvidence Run() {
@@ -171,6 +199,16 @@ class Solver {
     return squares;
   }
 
+  // -2 log likelihood with s^2 as known.
+  double KnownCost(const std::vector<double>& squares, double d) const {
+    double sum = 0;
+    for (std::size_t b = 0; b < squares.size(); ++b) {
+      const double v = *known_s2_ * lambda_[b] + d;
+      sum += squares[b] / v + rows_[b] * std::log(v);
+    }
+    return sum;
+  }
+
   // -2 log likelihood with s^2 = ratio * scale, D = (1 - ratio) * scale * middle lambda, the best
   // scale put in.
   double Cost(const std::vector<double>& squares, double ratio, double* scale) const {
@@ -186,30 +224,24 @@ class Solver {
 
   double UpdateNoise(const VectorXd& c, const MatrixXd& v) {
     const std::vector<double> squares = Residuals(c, v);
-    // log(ratio / (1 - ratio)) on a grid, then between its neighbours.
-    const auto ratio = [](double logit) { return 1 / (1 + std::exp(-logit)); };
-    double scale = 0, best = 0, best_cost = HUGE_VAL;
-    for (double logit = -30; logit <= 30; logit += 1) {
-      const double cost = Cost(squares, ratio(logit), &scale);
-      if (cost < best_cost) {
-        best_cost = cost;
-        best = logit;
-      }
-    }
-    double low = best - 1, high = best + 1;
-    for (int step = 0; step < 40; ++step) {
-      const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-      if (Cost(squares, ratio(a), &scale) < Cost(squares, ratio(b), &scale)) {
-        high = b;
-      } else {
-        low = a;
-      }
-    }
-    const double at = ratio(0.5 * (low + high));
-    Cost(squares, at, &scale);
     const double before = std::log(Variance(0)) + std::log(Variance(lambda_.size() - 1));
-    s2_ = at * scale;
-    d_ = (1 - at) * scale * middle_;
+    if (known_s2_) {
+      double all = 0;  // as if there were nothing else
+      for (std::size_t b = 0; b < squares.size(); ++b) {
+        all += squares[b] / std::max(lambda_[b], 1e-300);
+      }
+      const double most = std::max(all / total_, *known_s2_) * lambda_.back() + 1e-300;
+      const auto d = [&](double log_share) { return most * std::exp(log_share); };
+      d_ = d(Least([&](double at) { return KnownCost(squares, d(at)); }, -60, 5));
+    } else {
+      double scale = 0;
+      const auto ratio = [](double logit) { return 1 / (1 + std::exp(-logit)); };
+      const double at =
+          ratio(Least([&](double logit) { return Cost(squares, ratio(logit), &scale); }, -30, 30));
+      Cost(squares, at, &scale);
+      s2_ = at * scale;
+      d_ = (1 - at) * scale * middle_;
+    }
     const double after = std::log(Variance(0)) + std::log(Variance(lambda_.size() - 1));
     return std::abs(after - before);
   }
@@ -230,6 +262,7 @@ class Solver {
   const KernelMoments& corrected_;
   const KernelPenalties& penalties_;
   Index p_;
+  std::optional<double> known_s2_;
   std::vector<double> lambda_, rows_;  // by bin
   double total_ = 0, middle_ = 1, smallest_ = 0;
   double s2_ = 1, d_ = 1;
@@ -239,10 +272,11 @@ class Solver {
 }  // namespace
 
 KernelEvidence SolveKernels(const KernelMoments& plain, const KernelMoments& corrected,
-                            const KernelPenalties& penalties) {
+                            const KernelPenalties& penalties,
+                            std::optional<double> position_variance) {
   Check(plain.terms > 0 && !plain.bins.empty(), "no equations");
   Check(plain.bins.size() == corrected.bins.size(), "moments of different runs");
-  return Solver(plain, corrected, penalties).Run();
+  return Solver(plain, corrected, penalties, position_variance).Run();
 }
 
 }  // namespace flocklift

@@ -17,6 +17,7 @@
 #define FLOCKLIFT_RECONSTRUCT_FIT_KERNEL_EVIDENCE_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "reconstruct/fit/kernel_moments.h"
@@ -42,9 +43,10 @@ struct KernelPenalties {
 };
 
 // `plain` are the moments as they came, `corrected` without what position noise has put in (the
-// same object when there is none).
+// same object when there is none). `position_variance`: s^2 where it is known [m^2], held.
 KernelEvidence SolveKernels(const KernelMoments& plain, const KernelMoments& corrected,
-                            const KernelPenalties& penalties);
+                            const KernelPenalties& penalties,
+                            std::optional<double> position_variance = std::nullopt);
 
 }  // namespace flocklift
 

@@ -27,6 +27,23 @@ constexpr int kPoints = 4;      // between two breaks, that are given
 constexpr double kRare = 1e-3;  // share of the mean density of pairs that counts as none
 constexpr double kFlat = 1e-9;  // share of the widest extent below which a coordinate stands still
 
+constexpr const char* kAttraction = "attraction";
+constexpr const char* kAlignment = "alignment";
+
+constexpr int kRowsAnInterval = 20;  // when their number is chosen, of each kernel
+constexpr int kFewest = 4, kMost = 80;
+
+void CheckKernels(const KernelFitOptions& options) {
+  Check(options.intervals == 0 || options.intervals >= kFewest,
+        "a kernel's spline has 4 intervals at least, or 0 to have them chosen");
+  for (const std::string& name : options.kernels) {
+    Check(name == kAttraction || name == kAlignment,
+          "there is no kernel " + name + ": attraction or alignment");
+    Check(name != kAlignment || options.order == 2,
+          "an alignment needs a motion of order 2: with order 1 nobody has a velocity to align");
+  }
+}
+
 std::vector<ObservedFlock> Observe(const std::vector<Trajectories>& flocks, double fps, int gap) {
   std::vector<ObservedFlock> observed;
   for (const Trajectories& flock : flocks) observed.emplace_back(flock, fps, gap);
@@ -98,9 +115,9 @@ void AddPenalties(const SplineBasis& basis, Index offset, Index terms, KernelPen
 
 KernelPenalties Penalties(const KernelDesign& design) {
   KernelPenalties penalties;
-  AddPenalties(design.attraction, 0, design.terms(), &penalties);
+  if (design.has_attraction) AddPenalties(design.attraction, 0, design.terms(), &penalties);
   if (design.has_alignment) {
-    AddPenalties(design.alignment, design.attraction.size(), design.terms(), &penalties);
+    AddPenalties(design.alignment, design.alignment_offset(), design.terms(), &penalties);
   }
   return penalties;
 }
@@ -120,9 +137,12 @@ FittedKernel KernelOf(const std::string& name, const SplineBasis& basis, Index o
 }
 
 std::vector<FittedKernel> KernelsOf(const KernelDesign& design, const KernelEvidence& evidence) {
-  std::vector<FittedKernel> kernels = {KernelOf("attraction", design.attraction, 0, evidence)};
+  std::vector<FittedKernel> kernels;
+  if (design.has_attraction) {
+    kernels.push_back(KernelOf(kAttraction, design.attraction, 0, evidence));
+  }
   if (design.has_alignment) {
-    kernels.push_back(KernelOf("alignment", design.alignment, design.attraction.size(), evidence));
+    kernels.push_back(KernelOf(kAlignment, design.alignment, design.alignment_offset(), evidence));
   }
   return kernels;
 }
@@ -189,6 +209,15 @@ std::string StatusText(KernelFitStatus status) {
   return "";
 }
 
+bool KernelFitOptions::Has(const std::string& kernel) const {
+  if (kernels.empty()) return kernel == kAttraction || order == 2;
+  return std::find(kernels.begin(), kernels.end(), kernel) != kernels.end();
+}
+
+std::string FittedKernel::Unit(int order) const {
+  return order == 1 || name == kAlignment ? "1/s" : "1/s^2";
+}
+
 double FittedKernel::Sd(double distance) const {
   const SplineBasis::Local local = basis.At(distance);
   const auto n = static_cast<std::size_t>(basis.size());
@@ -207,6 +236,7 @@ double FittedKernel::Sd(double distance) const {
 KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajectories>& flocks,
                      double fps, std::uint64_t seed, int threads, const Progress& progress) {
   CheckOptions(options);
+  CheckKernels(options);
   Check(fps > 0, "fps must be positive");
   KernelFit fit;
   fit.flocks = static_cast<std::int64_t>(flocks.size());
@@ -221,28 +251,38 @@ KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajecto
   }
   KernelDesign design;
   design.order = options.order;
-  design.has_alignment = options.order == 2;
+  design.has_attraction = options.Has(kAttraction);
+  design.has_alignment = options.Has(kAlignment);
   design.coordinates = Coordinates(flocks);
   design.reach = options.reach;
   design.segment = options.segment;
   fit.dimensions =
       static_cast<int>(std::count(design.coordinates.begin(), design.coordinates.end(), true));
 
+  fit.rows = CountKernelRows(design, observed);
+  fit.intervals = options.intervals;
+  if (fit.intervals == 0) {
+    const int kernels = (design.has_attraction ? 1 : 0) + (design.has_alignment ? 1 : 0);
+    fit.intervals = static_cast<int>(
+        std::clamp<std::int64_t>(fit.rows / (kRowsAnInterval * kernels), kFewest, kMost));
+  }
+  std::optional<double> known_variance;
+  if (options.position_noise > 0) known_variance = options.position_noise * options.position_noise;
   KernelMoments moments;
   KernelEvidence evidence;
+  evidence.position_variance = known_variance.value_or(0);
   for (int round = 0; round < kRounds; ++round) {
     std::vector<FittedKernel> before;
     if (round > 0) before = KernelsOf(design, evidence);
     const auto basis = [&](std::size_t k) {
       const auto bend = [&, k](double r) { return Bend(before[k], r); };
       return SplineBasis(
-          ChooseBreaks(pairs, options.intervals, kFinest * std::sqrt(evidence.position_variance),
+          ChooseBreaks(pairs, fit.intervals, kFinest * std::sqrt(evidence.position_variance),
                        round > 0 ? std::function<double(double)>(bend) : nullptr),
           options.degree);
     };
-    SplineBasis attraction = basis(0);
-    if (design.has_alignment) design.alignment = basis(1);
-    design.attraction = std::move(attraction);
+    if (design.has_attraction) design.attraction = basis(0);
+    if (design.has_alignment) design.alignment = basis(design.has_attraction ? 1 : 0);
     moments = GatherKernelMoments(design, observed, observed, threads);
     fit.rows = static_cast<std::int64_t>(moments.rows());
     if (moments.runs == 0) {
@@ -253,7 +293,7 @@ KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajecto
       fit.status = KernelFitStatus::kTooFewRows;
       return fit;
     }
-    evidence = SolveKernels(moments, moments, Penalties(design));
+    evidence = SolveKernels(moments, moments, Penalties(design), known_variance);
     Report(progress, round + 1, kStages);
   }
   if (design.has_alignment && evidence.position_variance > 0) {
@@ -273,7 +313,7 @@ KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajecto
       }
       Report(progress, kRounds + 1 + draw, kStages);
     }
-    evidence = SolveKernels(moments, corrected, Penalties(design));
+    evidence = SolveKernels(moments, corrected, Penalties(design), known_variance);
   }
   fit.kernels = KernelsOf(design, evidence);
   Index offset = 0;

@@ -10,6 +10,9 @@
 // (kernel_evidence.h). Breaks lie where pairs are, where distances are, and, in a second round,
 // where the first round's kernel bends.
 //
+// How many pieces a spline has matters little once there are enough: what is too many is smoothed
+// away. Chosen, it is as many as there are equations for, 80 at most.
+//
 // Position noise is in the features too. In the offsets it blurs a kernel by sqrt(2) of its sd, and
 // no part of a spline is made shorter than 4 of these. In the velocities, which an alignment
 // multiplies, it is large: what it does to the moments is found by doing it once more, with the
@@ -37,23 +40,35 @@
 
 namespace flocklift {
 
+// The model's name where models are named.
+inline constexpr const char* kKernelsModel = "kernels";
+
 struct KernelFitOptions {
-  int order = 2;        // of the equation of motion
-  int intervals = 80;   // of each kernel's spline
-  int degree = 3;       // of the spline: 0 steps, 1 chain, 3 cubic
-  double reach = 0;     // farther pairs do not interact [m]; 0: all pairs do
-  int segment = 100;    // longest run of frames that is taken at once
-  int bridged_gap = 5;  // missing frames that neighbours are interpolated over; not described here:
-                        // FitOptions describes it
+  int order = 2;              // of the equation of motion
+  int intervals = 0;          // of each kernel's spline; 0: chosen from the data
+  int degree = 3;             // of the spline: 0 steps, 1 chain, 3 cubic
+  double reach = 0;           // farther pairs do not interact [m]; 0: all pairs do
+  double position_noise = 0;  // sd of each coordinate where it is known [m]; 0: estimated
+  int segment = 100;          // longest run of frames that is taken at once
+
+  // Not described here: `fit --free` and FitOptions say these.
+  std::vector<std::string> kernels = {};  // attraction, alignment; empty: all that the order has
+  int bridged_gap = 5;                    // missing frames that neighbours are interpolated over
+
+  // Is the kernel of this name to be fitted?
+  bool Has(const std::string& kernel) const;
 };
 
 template <typename Visitor>
 void Describe(Visitor& visit, KernelFitOptions& o) {
   visit("order", o.order, {.low = 1, .high = 2}, "",
         "what the kernels drive: 1 velocities (opinions, gradients), 2 accelerations");
-  visit("intervals", o.intervals, {.low = 4, .high = 400}, "", "pieces of each kernel's spline");
+  visit("intervals", o.intervals, {.low = 0, .high = 400}, "",
+        "pieces of each kernel's spline; 0: chosen from the data");
   visit("degree", o.degree, {.low = 0, .high = 3}, "", "of the spline: 0 steps .. 3 cubic");
   visit("reach", o.reach, {.low = 0}, "m", "farther pairs do not interact; 0: all pairs do");
+  visit("position-noise", o.position_noise, {.low = 0}, "m",
+        "sd of each coordinate of the positions where it is known; 0: estimated");
   visit("segment", o.segment, {.low = 8, .high = 400}, "frames",
         "longest run of an animal's frames that is taken at once");
 }
@@ -72,6 +87,8 @@ struct FittedKernel {
   std::vector<double> coefficients;
   std::vector<KernelPoint> points;  // by distance, denser where the breaks are
 
+  // 1/s or 1/s^2, by the order of the motion.
+  std::string Unit(int order) const;
   double Value(double distance) const { return basis.Value(coefficients, distance); }
   // sd of Value at a distance.
   double Sd(double distance) const;
@@ -90,6 +107,7 @@ struct KernelFit {
   KernelFitStatus status = KernelFitStatus::kOk;
   std::vector<FittedKernel> kernels;
   std::int64_t flocks = 0, animals = 0, rows = 0;
+  int intervals = 0;          // asked for, or chosen
   int dimensions = 3;         // coordinates that change
   double position_noise = 0;  // sd of each coordinate [m]
   double diffusion = 0;       // D [m^2/s, or m^2/s^3]
@@ -102,7 +120,7 @@ struct KernelFit {
 };
 
 // `flocks`: one or more runs of the same kind of flock, at the same fps. Deterministic in all but
-// `threads`. Throws std::invalid_argument for options out of range.
+// `threads`. Throws std::invalid_argument for options out of range, or kernels that do not exist.
 KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajectories>& flocks,
                      double fps, std::uint64_t seed, int threads, const Progress& progress = {});
 

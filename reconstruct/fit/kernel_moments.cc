@@ -197,8 +197,7 @@ bool KernelTerms(const KernelDesign& design, const ObservedFlock& flock, const O
   const double dimensions =
       static_cast<double>(std::count(design.coordinates.begin(), design.coordinates.end(), true));
   const Vec3d x = flock.Position(animal, frame);
-  const auto offset =
-      static_cast<std::size_t>(design.has_attraction ? design.attraction.size() : 0);
+  const auto offset = static_cast<std::size_t>(design.alignment_offset());
   for (const int other : flock.Alive(frame)) {
     if (other == animal) continue;
     const Vec3d dx = flock.Position(other, frame) - x;
@@ -228,6 +227,14 @@ bool KernelTerms(const KernelDesign& design, const ObservedFlock& flock, const O
     }
   }
   return true;
+}
+
+std::int64_t CountKernelRows(const KernelDesign& design, const std::vector<ObservedFlock>& flocks) {
+  const std::int64_t coordinates =
+      std::count(design.coordinates.begin(), design.coordinates.end(), true);
+  std::int64_t rows = 0;
+  for (const Run& run : Runs(design, flocks)) rows += coordinates * (run.frames - design.order);
+  return rows;
 }
 
 KernelMoments GatherKernelMoments(const KernelDesign& design,

@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct KernelDesign {
   int terms() const {
     return (has_attraction ? attraction.size() : 0) + (has_alignment ? alignment.size() : 0);
   }
+  // Place of the alignment's first function among the terms.
+  int alignment_offset() const { return has_attraction ? attraction.size() : 0; }
 };
 
 // Rows of nearly one lambda: the lower triangle of sum [X y]'[X y].
@@ -53,6 +56,9 @@ struct KernelMoments {
 
   double rows() const;
 };
+
+// How many equations GatherKernelMoments can make of these flocks at most.
+std::int64_t CountKernelRows(const KernelDesign& design, const std::vector<ObservedFlock>& flocks);
 
 // `moved` are the same flocks, with other noise perhaps: displacements and velocities are taken
 // from these, the offsets between the animals from `flocks`. Same sums at any number of threads.
