@@ -22,7 +22,10 @@ constexpr double kTolerance = 1e-3;  // of log variances and of the number of pa
 constexpr double kSmallest = 1e-24;  // share of y's mean square that counts as no noise at all
 constexpr double kJitter = 1e-13;    // of a penalty's diagonal
 constexpr double kLeast = 0.5;       // share of plain moments that correction leaves at least
-constexpr double kTauStep = 10;      // most that a tau changes in a round, as a factor
+constexpr double kLowerStep = 2;     // of log tau, when its least is sought
+constexpr double kLowest = 30;       // beyond it
+constexpr int kLowerHalvings = 4;
+constexpr double kTauStep = 10;  // most that a tau changes in a round, as a factor
 
 // Where a function is least: on a grid of whole numbers, then between the neighbours of the best.
 template <typename Function>
@@ -47,6 +50,20 @@ double Least(const Function& cost, int first, int last) {
   return 0.5 * (low + high);
 }
 
+double LogDeterminant(const Eigen::LLT<MatrixXd>& factor) {
+  const MatrixXd& half = factor.matrixLLT();
+  return 2 * half.diagonal().array().log().sum();
+}
+
+// Values at `at` (increasing), at x on straight lines; beyond the last: that.
+double Between(const std::vector<double>& at, const Eigen::RowVectorXd& values, double x) {
+  const auto after = std::upper_bound(at.begin(), at.end(), x);
+  if (after == at.end()) return values[values.size() - 1];
+  const auto k = static_cast<Index>(after - at.begin());
+  const double share = (x - *(after - 1)) / (*after - *(after - 1));
+  return (1 - share) * values[k - 1] + share * values[k];
+}
+
 // Weighted normal equations.
 struct System {
   MatrixXd a;  // symmetric
@@ -61,7 +78,8 @@ class Solver {
         corrected_(corrected),
         penalties_(penalties),
         p_(plain.terms),
-        known_s2_(position_variance) {
+        known_s2_(position_variance),
+        c_(VectorXd::Zero(plain.terms)) {
     double squares = 0;
     for (const auto& [place, bin] : plain.bins) {
       lambda_.push_back(bin.lambda / bin.rows);
@@ -79,7 +97,7 @@ class Solver {
 
   KernelEvidence Run() {
     KernelEvidence result;
-    VectorXd c = VectorXd::Zero(p_);
+    VectorXd& c = c_;
     MatrixXd v = MatrixXd::Zero(p_, p_);
     double effective = 0;
     StartTaus();
@@ -104,10 +122,14 @@ class Solver {
     }
     const System plain = Weighted(plain_, false), system = Weighted(corrected_, true);
     const MatrixXd s = Penalty();
-    const Eigen::LLT<MatrixXd> factor(Positive(system.a + s, plain.a + s));
+    const MatrixXd sum = Positive(system.a + s, plain.a + s);
+    const Eigen::LLT<MatrixXd> factor(sum);
     result.coefficients = factor.solve(system.r);
     v = factor.solve(MatrixXd::Identity(p_, p_));
     result.effective = v.cwiseProduct(system.a).sum();
+    const MatrixXd data = sum - s;
+    LowerTaus(data, system.r);
+    v = Eigen::LLT<MatrixXd>(data + Penalty()).solve(MatrixXd::Identity(p_, p_));
     result.covariance = v;
     result.information = system.a.diagonal();
     if (&plain_ != &corrected_) {
@@ -144,8 +166,11 @@ class Solver {
     System system{sum.topLeftCorner(p_, p_).selfadjointView<Eigen::Lower>(),
                   sum.row(p_).head(p_).transpose()};
     if (!felt) return system;
+    const VectorXd rates = moments.RatesOf(c_);
     for (const auto& [frames, divergence] : moments.divergence) {
-      system.r -= d_ * (divergence * moments.modes.at(frames).Kappa(s2_, d_));
+      const KernelModes& modes = moments.modes.at(frames);
+      const MatrixXd of_rate = d_ * (divergence * modes.Kappa(s2_, d_));  // terms x rates
+      for (Index t = 0; t < p_; ++t) system.r[t] -= Between(modes.rates, of_rate.row(t), rates[t]);
     }
     return system;
   }
@@ -165,16 +190,61 @@ class Solver {
     start_ = tau_;
   }
 
-  void UpdateTaus(const MatrixXd& s, const VectorXd& c, const MatrixXd& v) {
-    MatrixXd held = s;
-    for (const Index pin : penalties_.pins) held(pin, pin) *= 2;
-    // Rows and columns scaled alike: smoothnesses differ by many orders of magnitude.
-    const VectorXd scale = held.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    MatrixXd scaled = scale.asDiagonal() * held * scale.asDiagonal();
+  // S with its pins held, rows and columns scaled alike: smoothnesses differ by many orders of
+  // magnitude.
+  struct Held {
+    VectorXd scale;
+    Eigen::LLT<MatrixXd> factor;
+  };
+  Held Hold(MatrixXd s) const {
+    for (const Index pin : penalties_.pins) s(pin, pin) *= 2;
+    const VectorXd scale = s.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    MatrixXd scaled = scale.asDiagonal() * s * scale.asDiagonal();
     scaled.diagonal().array() += kJitter;
-    const Eigen::LLT<MatrixXd> factor(scaled);
-    const MatrixXd inverse =
-        scale.asDiagonal() * factor.solve(MatrixXd::Identity(p_, p_)) * scale.asDiagonal();
+    return {scale, Eigen::LLT<MatrixXd>(scaled)};
+  }
+
+  // -2 log likelihood of tau with the noise as it is, but for what is the same for all tau.
+  double SmoothnessCost(const MatrixXd& a, const VectorXd& r) const {
+    const MatrixXd s = Penalty();
+    const Eigen::LLT<MatrixXd> factor(a + s);
+    const Held held = Hold(s);
+    double pinned = 0;
+    for (const Index pin : penalties_.pins) pinned += std::log(std::max(s(pin, pin), 1e-300));
+    const double prior = LogDeterminant(held.factor) - 2 * held.scale.array().log().sum() - pinned;
+    return LogDeterminant(factor) - r.dot(factor.solve(r)) - prior;
+  }
+
+  // Every tau as small as one standard error of the likelihood allows, the others as they are.
+  void LowerTaus(const MatrixXd& a, const VectorXd& r) {
+    const std::vector<double> best = tau_;
+    std::vector<double> lowest = tau_;
+    const double least = SmoothnessCost(a, r);
+    for (std::size_t g = 0; g < best.size(); ++g) {
+      const auto allows = [&](double log_factor) {
+        tau_[g] = best[g] * std::exp(log_factor);
+        return SmoothnessCost(a, r) < least + 1;
+      };
+      double low = 0, high = 0;
+      do {
+        high = low;
+        low -= kLowerStep;
+      } while (low > -kLowest && allows(low));
+      for (int step = 0; step < kLowerHalvings; ++step) {
+        const double middle = 0.5 * (low + high);
+        (allows(middle) ? high : low) = middle;
+      }
+      lowest[g] = best[g] * std::exp(high);
+      tau_[g] = best[g];
+    }
+    tau_ = lowest;
+  }
+
+  void UpdateTaus(const MatrixXd& s, const VectorXd& c, const MatrixXd& v) {
+    const Held held = Hold(s);
+    const MatrixXd inverse = held.scale.asDiagonal() *
+                             held.factor.solve(MatrixXd::Identity(p_, p_)) *
+                             held.scale.asDiagonal();
     for (std::size_t g = 0; g < penalties_.parts.size(); ++g) {
       const double prior = inverse.cwiseProduct(penalties_.parts[g]).sum();
       const double gained =
@@ -266,6 +336,7 @@ class Solver {
   std::vector<double> lambda_, rows_;  // by bin
   double total_ = 0, middle_ = 1, smallest_ = 0;
   double s2_ = 1, d_ = 1;
+  VectorXd c_;
   std::vector<double> tau_, start_;
 };
 

@@ -7,7 +7,10 @@
 // tau_g by the steps of Wood and Fasiolo ("A generalized Fellner-Schall method", Biometrics 2017),
 //   tau_g <- tau_g (tr(S^- P_g) - tr(V P_g)) / (c' P_g c),   S = sum_g tau_g P_g.
 // V = (sum_b M_b / v_b + S)^-1 is the posterior covariance, whose bands cover on average over the
-// function, what is too smooth for the truth included (Nychka 1988).
+// function, what is too smooth for the truth included (Nychka 1988), if S is right. Where a kernel
+// bends little the data hardly bound tau from above, and the likeliest is near infinity: so for V
+// every tau is as small as the likelihood allows within one standard error (its -2 log 1 above the
+// least).
 //
 // With moments that noise of the positions has been taken out of, A c = r is solved with these; the
 // residuals are of the plain ones, and V A^- (A_plain - A) A^- more (Fuller, "Measurement error

@@ -10,6 +10,11 @@
 // (kernel_evidence.h). Breaks lie where pairs are, where distances are, and, in a second round,
 // where the first round's kernel bends.
 //
+// The bands are as wide as the least smoothness that the data allow makes them (kernel_evidence.h).
+// Over seeds of the system `flock` of tools/kernel_case.h, 5 runs seen with noise of 0, 1 and 5 mm,
+// the 95 % bands of the alignment cover 98, 96 and 94 % of the pairs, of the attraction 97 to 98.
+// They count on the kernels being all there is.
+//
 // How many pieces a spline has matters little once there are enough: what is too many is smoothed
 // away. Chosen, it is as many as there are equations for, 80 at most.
 //

@@ -5,6 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 #include "simulate/core/check.h"
 
@@ -38,22 +39,26 @@ MatrixXd ProcessCovariance(int order, Index rows, double dt) {
   return b;
 }
 
-// rows x F: covariance of the noise of a row and the state of a frame, for D = 1.
-MatrixXd SharedNoise(int order, Index frames, double dt) {
-  MatrixXd c = MatrixXd::Zero(frames - order, frames);
-  for (Index k = 0; k < c.rows(); ++k) {
-    for (Index m = 0; m < frames; ++m) {
-      if (order == 1) {
-        c(k, m) = m > k ? 2 * dt : 0;  // row k is the increment to frame k + 1
-        continue;
-      }
-      // The triangle about frame k + 1 under what a velocity over m - 1 .. m + 1 has felt.
-      constexpr double kFelt[] = {1.0 / 12, 0.5, 11.0 / 12};
-      const Index past = m - (k + 1);
-      c(k, m) = 2 * dt * dt * (past < -1 ? 0 : past > 1 ? 1 : kFelt[past + 1]);
-    }
+constexpr double kFirstRate = 0.01, kLastRate = 2, kRateStep = 1.5;  // of `rates` [1/frame]
+
+// What a velocity over u - 1 .. u + 1 has of a kick of 1 at time 0 that it forgets [frames].
+double Felt(double u, double rate) {
+  if (u <= -1) return 0;
+  if (rate == 0) return std::min(1.0, 0.5 * (u + 1));
+  if (u < 1) return -std::expm1(-rate * (u + 1)) / (2 * rate);
+  return std::exp(-rate * u) * std::sinh(rate) / rate;
+}
+
+// Its integral under the triangle of a second difference that lies `lag` frames before.
+double FeltOfTriangle(Index lag, double rate) {
+  constexpr int kPanels = 16;  // Simpson's, from -1 to 1: kinks lie at whole frames
+  double sum = 0;
+  for (int k = 0; k <= kPanels; ++k) {
+    const double s = -1 + 2.0 * k / kPanels;
+    const double weight = k == 0 || k == kPanels ? 1 : k % 2 == 1 ? 4 : 2;
+    sum += weight * (1 - std::abs(s)) * Felt(static_cast<double>(lag) - s, rate);
   }
-  return c;
+  return sum * 2 / (3 * kPanels);
 }
 
 }  // namespace
@@ -85,6 +90,28 @@ MatrixXd KernelQuadrature(int order, int frames, double dt) {
   return q;
 }
 
+MatrixXd KernelSharedNoise(int order, int frames, double dt, double rate) {
+  Check(rate >= 0, "noise is forgotten at a rate of 0 or more");
+  const double of_frame = rate * dt;
+  // By how many frames the state is behind the row: of order 1 row k ends at frame k + 1, of order
+  // 2 it lies about frame k + 1.
+  std::vector<double> felt;
+  for (Index past = 0; past <= frames; ++past) {
+    if (order == 2) {
+      felt.push_back(2 * dt * dt * FeltOfTriangle(past - 1, of_frame));
+    } else {
+      const double first = of_frame > 0 ? -std::expm1(-of_frame) / of_frame : 1;
+      const double decay = std::exp(-of_frame * static_cast<double>(past - 1));
+      felt.push_back(past == 0 ? 0 : 2 * dt * first * decay);
+    }
+  }
+  MatrixXd c = MatrixXd::Zero(frames - order, frames);
+  for (Index k = 0; k < c.rows(); ++k) {
+    for (Index m = k; m < frames; ++m) c(k, m) = felt[static_cast<std::size_t>(m - k)];
+  }
+  return c;
+}
+
 KernelModes MakeKernelModes(int order, int frames, double dt) {
   const MatrixXd quadrature = KernelQuadrature(order, frames, dt);
   const MatrixXd d = Differences(order, frames);
@@ -92,15 +119,29 @@ KernelModes MakeKernelModes(int order, int frames, double dt) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(
       a, ProcessCovariance(order, d.rows(), dt));
   const MatrixXd& u = solver.eigenvectors();
-  return {.difference = u.transpose() * d,
-          .average = u.transpose() * quadrature,
-          .lambda = solver.eigenvalues().cwiseMax(0.0),
-          .shared = u.transpose() * SharedNoise(order, frames, dt)};
+  KernelModes modes{.difference = u.transpose() * d,
+                    .average = u.transpose() * quadrature,
+                    .lambda = solver.eigenvalues().cwiseMax(0.0),
+                    .rates = {0},
+                    .shared = {}};
+  for (double rate = kFirstRate; rate < kLastRate; rate *= kRateStep) {
+    modes.rates.push_back(rate / dt);
+  }
+  for (const double rate : modes.rates) {
+    modes.shared.emplace_back(u.transpose() * KernelSharedNoise(order, frames, dt, rate));
+  }
+  return modes;
 }
 
-Eigen::VectorXd KernelModes::Kappa(double position_variance, double diffusion) const {
-  const Eigen::ArrayXd weight = 1 / (position_variance * lambda.array() + diffusion);
-  return average.cwiseProduct(weight.matrix().asDiagonal() * shared).colwise().sum().transpose();
+MatrixXd KernelModes::Kappa(double position_variance, double diffusion) const {
+  const Eigen::VectorXd weight =
+      (position_variance * lambda.array() + diffusion).inverse().matrix();
+  const MatrixXd weighted = weight.asDiagonal() * average;
+  MatrixXd kappa(average.cols(), static_cast<Index>(rates.size()));
+  for (std::size_t k = 0; k < rates.size(); ++k) {
+    kappa.col(static_cast<Index>(k)) = weighted.cwiseProduct(shared[k]).colwise().sum().transpose();
+  }
+  return kappa;
 }
 
 }  // namespace flocklift

@@ -18,12 +18,15 @@
 // by C_ml = Cov(z_m, n_l) / D in the noise of row l, so that the right-hand side's own divergence
 // g_m = df_m/dz_m makes
 //   E[X'W n] = D sum_m g_m kappa_m,   kappa_m = (Q' W C')_mm,  W = (s^2 A + D B)^-1:
-// without position noise, what Ito's integral has over Stratonovich's.
+// without position noise, what Ito's integral has over Stratonovich's. With it W reaches over many
+// frames, in which the flock forgets: what one animal has felt goes as exp(-rate t) from what its
+// neighbours have, and C falls alike.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_KERNEL_MODES_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_KERNEL_MODES_H_
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace flocklift {
 
@@ -31,17 +34,21 @@ struct KernelModes {
   Eigen::MatrixXd difference;  // modes x F: of positions
   Eigen::MatrixXd average;     // modes x F: of f [s or s^2]; order 2: 0 in the first and last frame
   Eigen::VectorXd lambda;      // modes, increasing [1/s or 1/s^3]
-  Eigen::MatrixXd shared;      // modes x F: U'C'
+  std::vector<double> rates;   // increasing from 0 [1/s]
+  std::vector<Eigen::MatrixXd> shared;  // of each rate, modes x F: U'C'
 
   int modes() const { return static_cast<int>(lambda.size()); }
-  // kappa of all frames.
-  Eigen::VectorXd Kappa(double position_variance, double diffusion) const;
+  // kappa: F x rates.
+  Eigen::MatrixXd Kappa(double position_variance, double diffusion) const;
 };
 
 // The shortest run that has equations of an order.
 inline constexpr int ShortestRun(int order) { return order == 1 ? 4 : 5; }
 
 KernelModes MakeKernelModes(int order, int frames, double dt);
+
+// C of the header for one rate, rows x F.
+Eigen::MatrixXd KernelSharedNoise(int order, int frames, double dt, double rate);
 
 // The Q of the header, rows x F.
 Eigen::MatrixXd KernelQuadrature(int order, int frames, double dt);

@@ -67,6 +67,7 @@ class Gatherer {
            const std::vector<ObservedFlock>& moved, const std::map<int, KernelModes>& modes)
       : design_(design), flocks_(flocks), moved_(moved), modes_(modes) {
     sums_.terms = design.terms();
+    sums_.relaxation = MatrixXd::Zero(sums_.terms, sums_.terms);
   }
 
   void Add(const Run& run) {
@@ -93,6 +94,8 @@ class Gatherer {
         features[2](k, t) = term.z;
         own(t, k) = divergence[static_cast<std::size_t>(t)];
       }
+      const double n = std::max(2, flock.Count(run.first + k));
+      sums_.relaxation.selfadjointView<Eigen::Lower>().rankUpdate(own.col(k), n / (n - 1));
     }
     for (int c = 0; c < 3; ++c) {
       if (!design_.coordinates[static_cast<std::size_t>(c)]) continue;
@@ -142,6 +145,7 @@ class Gatherer {
   void Multiply(int place, Gathered* gathered) {
     MatrixXd& moment = sums_.bins[place].moment;
     if (moment.size() == 0) moment = MatrixXd::Zero(sums_.terms + 1, sums_.terms + 1);
+    if (gathered->count == 0) return;  // Eigen divides by it
     moment.selfadjointView<Eigen::Lower>().rankUpdate(
         gathered->rows.topRows(gathered->count).transpose());
     gathered->count = 0;
@@ -174,6 +178,7 @@ void AddTo(const KernelMoments& part, KernelMoments* sum) {
       to += divergence;
     }
   }
+  sum->relaxation += part.relaxation;
   sum->runs += part.runs;
   sum->frames += part.frames;
 }
@@ -184,6 +189,17 @@ double KernelMoments::rows() const {
   double sum = 0;
   for (const auto& [place, bin] : bins) sum += bin.rows;
   return sum;
+}
+
+Eigen::VectorXd KernelMoments::RatesOf(const Eigen::VectorXd& coefficients) const {
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(terms);
+  for (const auto& [frames, sum] : divergence) weight += sum.rowwise().sum();
+  const Eigen::VectorXd pulled = relaxation.selfadjointView<Eigen::Lower>() * coefficients;
+  Eigen::VectorXd rates = Eigen::VectorXd::Zero(terms);
+  for (Index t = 0; t < terms; ++t) {
+    if (weight[t] != 0) rates[t] = std::max(0.0, -pulled[t] / (dimensions * weight[t]));
+  }
+  return rates;
 }
 
 bool KernelTerms(const KernelDesign& design, const ObservedFlock& flock, const ObservedFlock& moved,
@@ -245,6 +261,9 @@ KernelMoments GatherKernelMoments(const KernelDesign& design,
   const std::vector<Run> runs = Runs(design, flocks);
   KernelMoments sum;
   sum.terms = design.terms();
+  sum.dimensions =
+      static_cast<int>(std::count(design.coordinates.begin(), design.coordinates.end(), true));
+  sum.relaxation = MatrixXd::Zero(sum.terms, sum.terms);
   for (const Run& run : runs) {
     if (sum.modes.contains(run.frames)) continue;
     sum.modes[run.frames] = MakeKernelModes(design.order, run.frames, flocks[run.flock].dt());

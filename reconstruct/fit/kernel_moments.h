@@ -48,13 +48,19 @@ struct KernelBin {
 
 struct KernelMoments {
   int terms = 0;
+  int dimensions = 0;             // coordinates in use
   std::map<int, KernelBin> bins;  // by the place of lambda on a logarithmic scale
   // By run length: sum of g over the runs, terms x F; and the modes that it belongs to.
   std::map<int, Eigen::MatrixXd> divergence;
   std::map<int, KernelModes> modes;
+  // Sum of g g' n / (n - 1) over runs and frames, n the animals there: with coefficients, how fast
+  // an animal's own noise is forgotten where a term acts (RatesOf).
+  Eigen::MatrixXd relaxation;
   std::int64_t runs = 0, frames = 0;  // of animals
 
   double rows() const;
+  // Of each term, for these coefficients [1/s]; 0 for terms without a divergence.
+  Eigen::VectorXd RatesOf(const Eigen::VectorXd& coefficients) const;
 };
 
 // How many equations GatherKernelMoments can make of these flocks at most.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -88,11 +89,45 @@ TEST(KernelModes, WithoutPositionNoiseKappaIsTheWeightOfWhatHasPassed) {
   const KernelModes modes = MakeKernelModes(1, frames, kDt);
   const Eigen::MatrixXd q = KernelQuadrature(1, frames, kDt);
   const double diffusion = 0.3;
-  const Eigen::VectorXd kappa = modes.Kappa(0, diffusion);
+  const Eigen::VectorXd kappa = modes.Kappa(0, diffusion).col(0);
   for (int m = 0; m < frames; ++m) {
     // Increment k ends at frame k + 1: the state at m has felt those with k < m.
     EXPECT_NEAR(diffusion * kappa[m], q.col(m).head(m).sum(), 1e-12);
   }
+}
+
+// By brute force: noise in fine steps through a velocity (order 1: a position) that forgets it.
+TEST(KernelModes, WhatIsFeltIsForgotten) {
+  constexpr int kFrames = 7, kFine = 200;
+  const double h = kDt / kFine;
+  for (const double rate : {0.0, 4.0}) {
+    for (const int order : {1, 2}) {
+      const Eigen::MatrixXd felt = KernelSharedNoise(order, kFrames, kDt, rate);
+      Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(felt.rows(), kFrames);
+      for (int step = -kFine; step < kFrames * kFine; ++step) {
+        const double s = h * (step + 0.5);  // when the kick comes
+        for (int m = 0; m < kFrames; ++m) {
+          const double t = kDt * m;
+          double state = s < t ? std::exp(-rate * (t - s)) : 0;
+          if (order == 2) {  // the mean of the velocity over the frames beside
+            const double from = std::max(s, t - kDt), to = t + kDt;
+            const auto until = [&](double at) {
+              return rate > 0 ? -std::exp(-rate * (at - s)) / rate : at;
+            };
+            state = to > from ? (until(to) - until(from)) / (2 * kDt) : 0;
+          }
+          for (Eigen::Index k = 0; k < felt.rows(); ++k) {
+            const double at = kDt * static_cast<double>(k);
+            const double row = order == 1 ? (s > at && s < at + kDt ? 1 : 0)
+                                          : std::max(0.0, kDt - std::abs(s - at - kDt));
+            sum(k, m) += 2 * h * row * state;
+          }
+        }
+      }
+      EXPECT_LT((sum - felt).cwiseAbs().maxCoeff(), 5e-3 * felt.maxCoeff()) << order << " " << rate;
+    }
+  }
+  EXPECT_THROW(KernelSharedNoise(2, kFrames, kDt, -1), std::invalid_argument);
 }
 
 TEST(KernelModes, RefusesShortRunsAndOtherOrders) {
