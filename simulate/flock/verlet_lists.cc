@@ -37,20 +37,25 @@ T Middle(const Moves<T>& moves, std::size_t n) {
   return T(0.5) * (*std::min_element(low, low + kLanes) + *std::max_element(high, high + kLanes));
 }
 
+// Infinite where a move is no finite number.
 template <typename T>
 double Farthest(const Moves<T> (&moves)[3], std::size_t n) {
   const Vec3<T> middle{Middle(moves[0], n), Middle(moves[1], n), Middle(moves[2], n)};
-  T most[kLanes] = {};
+  T most[kLanes] = {}, sum[kLanes] = {};  // what is no number shows in the sum
   const auto take = [&](std::size_t lane, std::size_t k) {
     const T x = moves[0][k] - middle.x, y = moves[1][k] - middle.y, z = moves[2][k] - middle.z;
     const T squared = x * x + y * y + z * z;
     most[lane] = squared > most[lane] ? squared : most[lane];
+    sum[lane] += squared;
   };
   std::size_t k = 0;
   for (; k + kLanes <= n; k += kLanes) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) take(lane, k + lane);
   }
   for (; k < n; ++k) take(0, k);
+  const bool finite =
+      std::all_of(sum, sum + kLanes, [](const T& value) { return std::isfinite(value); });
+  if (!finite) return std::numeric_limits<double>::infinity();
   return std::sqrt(static_cast<double>(*std::max_element(most, most + kLanes)));
 }
 

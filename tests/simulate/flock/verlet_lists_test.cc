@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -119,6 +121,18 @@ TEST(VerletLists, AreMadeAgainWhenTwoMayHaveMet) {
     }
     lists.Update(reach, nullptr, &pool, &herd);
     EXPECT_EQ(Listed(lists, herd).size(), x > 1.1 ? 0U : 2U);
+  }
+}
+
+// The grid refuses them; kept lists must not hide them from it.
+TEST(VerletLists, DoNotHoldForPlacesThatAreNoNumbers) {
+  ThreadPool pool(1);
+  for (const std::size_t animal : {0U, 5U}) {
+    Herd<float> herd = HerdOf<float>(RandomFlock("", 40, {4, 4, 4}, 35));
+    VerletLists<float> lists(0.3);
+    lists.Update({0.9F, 1.1F}, nullptr, &pool, &herd);
+    herd.now.y[animal] = std::nanf("");
+    EXPECT_THROW(lists.Update({0.9F, 1.1F}, nullptr, &pool, &herd), std::runtime_error);
   }
 }
 
