@@ -16,6 +16,7 @@
 
 #include "simulate/core/vec3.h"
 #include "tools/plot/histogram.h"
+#include "tools/plot/plot_shape.h"
 
 namespace flocklift {
 
@@ -31,15 +32,6 @@ struct PlotOptions {
   bool equal_axes = false;  // one metre is as long in x as in y
   bool nice_x = false;      // let the x axis end at round numbers
   std::optional<double> x_low = {}, x_high = {}, y_low = {}, y_high = {};  // else from the data
-};
-
-struct PlotStyle {
-  std::string color = "var(--c0)";
-  double width = 1.8;  // of a line, or diameter of a point [px]
-  double opacity = 1;
-  std::string dash = {};   // SVG's stroke-dasharray
-  std::string label = {};  // in the legend; none when empty
-  bool sets_range = true;  // does it count when the axes look for their range?
 };
 
 // The part of a band at one x. A NaN interrupts.
@@ -68,23 +60,8 @@ class Plot {
   std::string Svg() const;
 
  private:
-  enum class Kind { kLine, kBand, kPoints, kBars, kArrow, kText, kVertical, kHorizontal };
-  struct Shape {
-    Kind kind = Kind::kLine;
-    PlotStyle style;
-    std::vector<Vec2d> points = {};  // of a band: the lower edge; of bars: left end and height
-    std::vector<Vec2d> upper = {};   // of a band
-    double bar_width = 0;
-    std::string text = {};
-  };
-  struct Frame;  // where data land in the picture
-  Frame MakeFrame() const;
-  void AppendAxes(const Frame& frame, std::string* svg) const;
-  void AppendLegend(const Frame& frame, std::string* svg) const;
-  static void AppendShape(const Frame& frame, const Shape& shape, std::string* svg);
-
   PlotOptions options_;
-  std::vector<Shape> shapes_;
+  std::vector<PlotShape> shapes_;
 };
 
 }  // namespace flocklift
