@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "simulate/camera/board_views.h"
 #include "simulate/core/check.h"
 #include "simulate/core/image.h"
 #include "simulate/core/parallel_for.h"

@@ -43,14 +43,6 @@ BoardView FindBoard(const Board& board, const Image& image, const std::string& n
 // How sharp a picture is: the variance of its Laplacian, for comparing neighbouring frames.
 double Sharpness(const Image& image);
 
-// Without repeats: of views whose corners agree within 2 px (root mean square) only the sharpest
-// stays, for together they would count the same errors twice.
-std::vector<BoardView> DropRepeats(std::vector<BoardView> views);
-
-// At most `count` of the views, those that differ most in place, size and tilt (farthest-point
-// choice from the largest view on), in their given order.
-std::vector<BoardView> SelectViews(const std::vector<BoardView>& views, int count);
-
 }  // namespace flocklift
 
 #endif  // FLOCKLIFT_SIMULATE_CAMERA_BOARD_H_

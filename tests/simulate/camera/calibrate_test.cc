@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "simulate/camera/board.h"
+#include "simulate/camera/board_views.h"
 #include "simulate/camera/projection.h"
 #include "simulate/core/rng.h"
 #include "tests/simulate/camera/board_pictures.h"
