@@ -28,8 +28,7 @@ export async function openBrowser(packages, options = {}) {
   }
   const { chromium } = createRequire(resolve(packages, 'package.json'))('playwright-core');
   return chromium.launch({ executablePath, headless: true, timeout: 120000,
-    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
-      '--ignore-gpu-blocklist', '--disable-dev-shm-usage'], ...options });
+    args: ['--no-sandbox', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage'], ...options });
 }
 
 export function run(program, args) {
