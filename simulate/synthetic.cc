@@ -94,7 +94,7 @@ int Poisson(double mean, Rng* rng) {
 
 Tracks SynthesizeTracks(const Trajectories& trajectories, std::span<const Animal> animals,
                         const Camera& camera, double fps, int threads, const Scenery* scenery) {
-  constexpr std::int64_t kGrain = 8;  // frames that share one depth buffer
+  constexpr std::int64_t kGrain = 32;  // frames that share one depth buffer
   const Flight flight(trajectories, animals, camera, fps);
   const FrameSpan span = flight.span();
   const std::int64_t frames = std::max(0, span.last - span.first + 1);
@@ -105,11 +105,13 @@ Tracks SynthesizeTracks(const Trajectories& trajectories, std::span<const Animal
   ParallelFor(threads, 0, frames, kGrain, [&](std::int64_t first, std::int64_t last) {
     std::unique_ptr<DepthBuffer> surfaces;
     if (may_hide) surfaces = std::make_unique<DepthBuffer>(camera.width, camera.height);
+    std::optional<Rigid3d> drawn_from;
     for (std::int64_t k = first; k < last; ++k) {
       const int frame = span.first + static_cast<int>(k);
       const Rigid3d cam_from_world = camera.CamFromWorld(frame);
-      if (surfaces) {
+      if (surfaces && (scenery->SurfacesMove() || drawn_from != cam_from_world)) {
         surfaces->Clear();
+        drawn_from = cam_from_world;
         scenery->WithSurfaces(frame, [&](std::span<const Surface> views) {
           for (const Surface& view : views) painter.Draw(view, cam_from_world, 0, surfaces.get());
         });

@@ -57,6 +57,9 @@ class Scenery {
     return solids_.empty() && goals_.empty() && strokes_.empty() && moving_.empty();
   }
 
+  // Whether what hides animals is elsewhere in another frame.
+  bool SurfacesMove() const { return !moving_.empty(); }
+
   // Calls `use(setting)` with what stands there in a frame.
   void With(int frame, double time, const std::function<void(const Setting&)>& use) const;
   // Only what hides animals: obstacles and surfaces.
