@@ -29,6 +29,27 @@ await until('the flock', () => page.evaluate(() =>
 assert.equal(await page.locator('.animals li').count(), 5);
 say('the page loads');
 
+// The flock is in sight from every side: the only colours in space but grey are the birds'.
+for (const key of ['1', '2', '3', '4']) {
+  await press(key);
+  const coloured = () => page.evaluate(() => {
+    const space = document.querySelector('.flight canvas');
+    for (const draw of window.flocklift.run.clock.drawers) draw();
+    const flat = new OffscreenCanvas(space.width, space.height).getContext('2d');
+    flat.drawImage(space, 0, 0);
+    const { data } = flat.getImageData(0, 0, space.width, space.height);
+    let count = 0;
+    for (let k = 0; k < data.length; k += 4) {
+      const rgb = data.subarray(k, k + 3);
+      if (Math.max(...rgb) - Math.min(...rgb) > 60) count++;
+    }
+    return count;
+  });
+  await until('birds in view ' + key, async () => (await coloured()) > 15);
+}
+await press('1');
+say('the flock is in sight');
+
 // Scrubbing shows the right frame: the number is read back from the pixels.
 await press('b');
 await press('t');

@@ -46,6 +46,7 @@ export class Space {
       // x right, y down, z forward  ->  x right, y forward, z up
       this.world.matrixAutoUpdate = false;
       this.world.matrix.set(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
+      this.world.matrixWorldNeedsUpdate = true; // before it is first drawn, too
     }
     this.scene.add(this.world);
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8899aa, 2.2));
