@@ -47,6 +47,11 @@ export function Charts({ run }: { run: Run }) {
     });
     const fontSize = Math.round(parseFloat(getComputedStyle(element).fontSize) * 0.85);
     const font = `${fontSize}px system-ui, sans-serif`;
+    // Above the plots, which need not be drawn again when it moves.
+    const placeCursor = (u: uPlot) => {
+      const cursor = u.over.querySelector<HTMLElement>('.now');
+      if (cursor) cursor.style.transform = `translateX(${u.valToPos(run.store.get().frame, 'x')}px)`;
+    };
     const plots = CURVES.map(([curve, label]) => {
       const axis = { stroke: colours.ink, grid: { stroke: colours.grid, width: 1 }, font,
         ticks: { show: false } };
@@ -77,21 +82,11 @@ export function Charts({ run }: { run: Run }) {
               points: { show: false } },
           ],
           hooks: {
-            draw: [
-              (u) => {
-                const x = Math.round(u.valToPos(run.store.get().frame, 'x', true)) + 0.5;
-                u.ctx.save();
-                u.ctx.strokeStyle = '#e6820a';
-                u.ctx.lineWidth = devicePixelRatio;
-                u.ctx.beginPath();
-                u.ctx.moveTo(x, u.bbox.top);
-                u.ctx.lineTo(x, u.bbox.top + u.bbox.height);
-                u.ctx.stroke();
-                u.ctx.restore();
-              },
-            ],
+            draw: [placeCursor],
             ready: [
               (u) => {
+                u.over.append(Object.assign(document.createElement('i'), { className: 'now' }));
+                placeCursor(u);
                 const go = (event: PointerEvent) => {
                   if (event.buttons !== 1) return;
                   const box = u.over.getBoundingClientRect();
@@ -134,7 +129,7 @@ export function Charts({ run }: { run: Run }) {
     void ask();
     const stops = [
       run.store.watch((state, before) => {
-        if (state.frame !== before.frame) plots.forEach((plot) => plot.redraw(false, false));
+        if (state.frame !== before.frame) plots.forEach(placeCursor);
         if (state.selected !== before.selected || state.table !== before.table) void ask();
       }),
       run.watch(() => void ask()),

@@ -3,10 +3,14 @@
 //
 // What is drawn, of which flock, and who.
 
+import { useMemo } from 'preact/hooks';
+
 import { colourOf } from './colours';
 import { useNews } from './news';
 import type { Run } from './run';
-import { useValue, type Ghost, type State } from './state';
+import { useParts, useValue, type Ghost } from './state';
+
+const MOST_LISTED = 400; // animals
 
 type Switch = 'boxes' | 'ids' | 'bars' | 'grid';
 const SWITCHES: [Switch, string, string][] = [
@@ -44,10 +48,14 @@ function Animal({ run, animal }: { run: Run; animal: number }) {
 
 export function LookPanel({ run }: { run: Run }) {
   const { store, session } = run;
-  const state = useValue(store, (s: State) => s);
+  const state = useParts(store, 'boxes', 'ids', 'bars', 'grid', 'trails', 'birdScale', 'ghost', 'solo',
+    'hidden');
   const animals = useNews(run, () => run.animals);
   const solved = useNews(run, () => run.versions.after > 0);
-  const shown = animals.length > 400 ? animals.slice(0, 400) : animals;
+  const shown = Math.min(animals.length, MOST_LISTED);
+  // Made once, so that they are not looked at again whenever the rest of the panel changes.
+  const list = useMemo(() => Array.from({ length: shown }, (_, k) => <Animal run={run} animal={k} key={k} />),
+    [run, shown]);
   return (
     <div class="panel-body">
       <section>
@@ -86,8 +94,8 @@ export function LookPanel({ run }: { run: Run }) {
           <button disabled={state.hidden.size === 0}
             onClick={() => store.set({ hidden: new Set() })}>show all</button>
         </header>
-        <ul>{shown.map((_, k) => <Animal run={run} animal={k} key={k} />)}</ul>
-        {shown.length < animals.length && <p class="muted">and {animals.length - shown.length} more: click them in the pictures.</p>}
+        <ul>{list}</ul>
+        {shown < animals.length && <p class="muted">and {animals.length - shown} more: click them in the pictures.</p>}
       </section>
     </div>
   );

@@ -72,10 +72,28 @@ export class Store {
 export function useValue<T>(store: Store, pick: (state: State) => T): T {
   const [value, setValue] = useState(() => pick(store.get()));
   useEffect(() => {
-    setValue(() => pick(store.get()));
-    return store.watch((state) => setValue(() => pick(state)));
+    let last = pick(store.get());
+    setValue(() => last);
+    return store.watch((state) => {
+      const next = pick(state);
+      if (next === last) return;
+      last = next;
+      setValue(() => next);
+    });
   }, [store]);
   return value;
+}
+
+// The state in a component that is drawn again when one of these parts changes.
+export function useParts<Part extends keyof State>(store: Store, ...parts: Part[]): Pick<State, Part> {
+  const [state, setState] = useState(() => store.get());
+  useEffect(() => {
+    setState(store.get());
+    return store.watch((now, before) => {
+      if (parts.some((part) => now[part] !== before[part])) setState(now);
+    });
+  }, [store]);
+  return state;
 }
 
 export function isShown(state: State, animal: number): boolean {
