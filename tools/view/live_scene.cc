@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <utility>
 
 #include "simulate/core/check.h"
 #include "simulate/flock/model.h"
+#include "tools/view/scene_look.h"
 #include "tools/view/sketch.h"
 
 namespace flocklift {
@@ -22,7 +22,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kLooksPerSecond = 60;
 constexpr double kMostOfALook = 0.9;  // of its time may be stepping
 constexpr int kWaypoints = 24;
-constexpr std::uint32_t kMagic = 0x534b4c46;  // "FLKS"
 
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
@@ -35,11 +34,6 @@ void CheckFinite(const Vec3d& v) {
 void Merge(const ModelSpec& change, ModelSpec* spec) {
   for (const auto& [name, value] : change.parameters) spec->parameters[name] = value;
   for (const auto& [name, word] : change.choices) spec->choices[name] = word;
-}
-
-template <typename T>
-void Append(const T* values, std::size_t count, std::string* bytes) {
-  bytes->append(reinterpret_cast<const char*>(values), count * sizeof(T));
 }
 
 }  // namespace
@@ -137,38 +131,14 @@ void LiveScene::Work() {
 }
 
 void LiveScene::MakeLook(double looks_per_second, double steps_per_second) {
-  const FlockState state = engine_->State();
-  const std::size_t n = state.size();
-  double fastest = 1e-6;
-  for (const Vec3d& v : state.velocity) fastest = std::max(fastest, Norm(v));
-  const double unit = fastest / 32767;
-  std::vector<float> places;
-  places.reserve(3 * (scene_.goals.size() + n));
-  const auto put = [&places](const Vec3d& p) {
-    places.insert(places.end(),
-                  {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-  };
-  for (const GoalSpec& goal : scene_.goals) put(GoalPosition(goal, engine_->time()));
-  for (const Vec3d& p : state.position) put(p);
-  std::vector<std::int16_t> velocities;
-  velocities.reserve(3 * n + 1);
-  for (const Vec3d& v : state.velocity) {
-    for (const double x : {v.x, v.y, v.z}) {
-      velocities.push_back(static_cast<std::int16_t>(std::lround(x / unit)));
-    }
-  }
-  if (velocities.size() % 2 == 1) velocities.push_back(0);
-  auto look = std::make_shared<std::string>();
-  look->reserve(32 + 4 * places.size() + 2 * velocities.size());
-  const std::uint32_t header[] = {kMagic, static_cast<std::uint32_t>(n),
-                                  static_cast<std::uint32_t>(scene_.goals.size()),
-                                  static_cast<std::uint32_t>(looks_ + 1)};
-  const float rates[] = {static_cast<float>(engine_->time()), static_cast<float>(looks_per_second),
-                         static_cast<float>(steps_per_second), static_cast<float>(unit)};
-  Append(header, std::size(header), look.get());
-  Append(rates, std::size(rates), look.get());
-  Append(places.data(), places.size(), look.get());
-  Append(velocities.data(), velocities.size(), look.get());
+  std::vector<Vec3d> goals;
+  for (const GoalSpec& goal : scene_.goals) goals.push_back(GoalPosition(goal, engine_->time()));
+  auto look =
+      std::make_shared<std::string>(PackLook(engine_->State(), goals,
+                                             {.number = static_cast<std::uint32_t>(looks_ + 1),
+                                              .time = engine_->time(),
+                                              .looks_per_second = looks_per_second,
+                                              .steps_per_second = steps_per_second}));
   {
     const std::lock_guard lock(mutex_);
     look_ = std::move(look);

@@ -54,12 +54,8 @@ class LiveScene {
   // part of a scene.
   Scene Current();
 
-  // The last look that is newer than `*seen`, which moves on; waits a little for one, and may be
-  // null. Little-endian:
-  //   u32  magic "FLKS", animals N, goals G, number of the look
-  //   f32  time [s], looks a second, steps a second, unit of velocity U [m/s]
-  //   f32  goal[3G] [m],  f32 position[3N] [m],  i16 velocity[3N] in units of U
-  // Animals by id, predators last; padded to a multiple of 4 bytes.
+  // The last look (tools/view/scene_look.h) that is newer than `*seen`, which moves on; waits a
+  // little for one, and may be null.
   std::shared_ptr<const std::string> Look(std::uint64_t* seen);
 
   std::size_t agents() const { return population_.animals.size(); }

@@ -3,7 +3,7 @@
 //
 // A scene, live: what the page asks for to show and steer it.
 //   GET  /api/session   the scene as JSON: species with their parameters, goals, obstacles, camera
-//   GET  /api/live      looks without end (live_scene.h)
+//   GET  /api/live      looks without end (scene_look.h)
 //   POST /api/steer     {"do": "pause", "resume", "step", "reset", "pace", "parameter", "goal",
 //                        "predator", "wind", "attract", "release" or "lead", ..}
 //   POST /api/save      {"name": "x.toml"}: the scene as steered, into the folder for scenes
