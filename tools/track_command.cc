@@ -15,12 +15,14 @@
 #include "simulate/core/atomic_file.h"
 #include "simulate/core/check.h"
 #include "simulate/core/io.h"
+#include "simulate/core/table_by_frame.h"
 #include "tools/stage.h"
 #include "tools/track_from.h"
 #include "tools/track_overlay.h"
 #include "tools/track_picture.h"
 #include "track/correct.h"
 #include "track/density_flow.h"
+#include "track/tracklet_file.h"
 #include "track/video_source.h"
 
 namespace flocklift {
@@ -28,12 +30,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void SetFigures(const TrackerReport& report, const Tracks& tracks, Stage* stage) {
+void SetFigures(const TrackerReport& report, std::size_t ids, Stage* stage) {
   const TrackerTimings& t = report.timings;
   nlohmann::ordered_json figures = {
       {"frames_per_second",
        static_cast<double>(report.frames - report.frames_before) / std::max(t.total_s, 1e-9)},
-      {"ids", tracks.tracklets.size()},
+      {"ids", ids},
       {"frames", report.frames},
       {"detections", report.detections},
       {"rows", report.rows},
@@ -62,13 +64,24 @@ void SetFigures(const TrackerReport& report, const Tracks& tracks, Stage* stage)
   stage->figures().update(figures);
 }
 
-// The last frame of the footage, as far as it is known.
-int FrameCount(const TrackerResult& result) {
-  int last = static_cast<int>(result.report.frames);
-  for (const Tracklet& t : result.tracks.tracklets) {
-    if (!t.detections.empty()) last = std::max(last, t.detections.back().frame);
-  }
-  return last;
+// Applies what a person says to all the tracks, which memory must hold for it.
+void Correct(const std::vector<Correction>& corrections, const std::string& file,
+             const TrackerReport& report, TrackletFile* rows) {
+  // The last frame of the footage, as far as it is known.
+  const int frames = std::max(static_cast<int>(report.frames), rows->last_frame());
+  Tracks tracks{report.fps, rows->All()};
+  ApplyCorrections(corrections, file, frames, &tracks);
+  rows->Clear();
+  for (const Tracklet& tracklet : tracks.tracklets) rows->Add(tracklet);
+}
+
+// Of the tracks of an earlier run.
+TracksBetween FromTable(const fs::path& path) {
+  return [path](int first, int last) {
+    const std::optional<TableByFrame> table = TableByFrame::Open(path, "tracks");
+    std::optional<Tracks> some = table ? ReadTracks(*table, first, last) : std::nullopt;
+    return some ? std::move(*some) : ReadTracks(path);
+  };
 }
 
 // What can be said instead of identities.
@@ -145,45 +158,53 @@ void RunTrack(const TrackCommand& command, const CommonOptions& common) {
   stage.AddOutput("tracks.csv");
   stage.AddOutput("shapes.csv");
   if (command.overlay) stage.AddOutput("overlay.mp4");
-  const auto write_pictures = [&](const Tracks& tracks) {
+  const auto write_pictures = [&](const TracksBetween& tracks) {
     for (const PictureSpan& span : spans) {
       WriteTrackPicture(command.video, tracks, span, common.out / NameOfPicture(span));
     }
   };
   if (stage.IsUpToDate()) {
-    if (!spans.empty()) write_pictures(ReadTracks(common.out / "tracks.csv"));
+    if (!spans.empty()) write_pictures(FromTable(common.out / "tracks.csv"));
     return;
   }
 
   const Progress progress = stage.BeginPhase("track");
-  TrackerResult result = command.from.empty()
-                             ? TrackVideo(command.tracker, command.video, progress, common.fps,
-                                          {.folder = common.out / ".track-checkpoint"})
-                             : TrackFrom(command, common, &stage);
+  TrackletFile rows(common.out);
+  TrackerReport report;
+  if (command.from.empty()) {
+    report =
+        StreamTracks(command.tracker, command.video, [&rows](const Tracklet& t) { rows.Add(t); },
+                     progress, common.fps, {.folder = common.out / ".track-checkpoint"});
+  } else {
+    TrackerResult result = TrackFrom(command, common, &stage);
+    for (const Tracklet& tracklet : result.tracks.tracklets) rows.Add(tracklet);
+    report = std::move(result.report);
+  }
   if (!corrections.empty()) {
     stage.BeginPhase("correct");
-    ApplyCorrections(corrections, command.corrections.string(), FrameCount(result), &result.tracks);
+    Correct(corrections, command.corrections.string(), report, &rows);
   }
-  for (const std::string& warning : result.report.warnings) stage.Warn(warning);
-  const bool has_declined = has_video && !result.report.separability.is_enough;
+  for (const std::string& warning : report.warnings) stage.Warn(warning);
+  const bool has_declined = has_video && !report.separability.is_enough;
   if (has_declined) {
-    stage.Warn(WhyDeclined(result.report.separability));
+    stage.Warn(WhyDeclined(report.separability));
     const Progress flow_progress = stage.BeginPhase("flow");
     MeasureFlow(command, common, flow_progress, &stage);
-  } else if (result.tracks.tracklets.empty()) {
+  } else if (rows.size() == 0) {
     stage.Warn("no animal was found: lower --threshold, or set --polarity and --window");
   }
 
+  const TracksBetween tracks = [&rows](int first, int last) { return rows.Between(first, last); };
   if (command.overlay) {
     const Progress overlay_progress = stage.BeginPhase("overlay");
-    WriteTrackOverlay(command.video, result.tracks, common.out / "overlay.mp4", overlay_progress);
+    WriteTrackOverlay(command.video, tracks, report.fps, common.out / "overlay.mp4",
+                      overlay_progress);
   }
   stage.BeginPhase("write", "files");
-  WriteTracks(common.out / "tracks.csv", result.tracks);
-  WriteShapes(common.out / "shapes.csv", result.tracks);
-  SetFigures(result.report, result.tracks, &stage);
-  SetSuspicions(result.report.suspicions, &stage);
-  write_pictures(result.tracks);
+  WriteTracksAndShapes(common.out / "tracks.csv", common.out / "shapes.csv", report.fps, rows);
+  SetFigures(report, rows.size(), &stage);
+  SetSuspicions(report.suspicions, &stage);
+  write_pictures(tracks);
   stage.Finish();
 }
 

@@ -16,6 +16,7 @@ namespace flocklift {
 namespace {
 
 constexpr int kTrailFrames = 20;
+constexpr int kTogether = 100;  // frames whose tracks are fetched at once
 
 }  // namespace
 
@@ -45,14 +46,17 @@ void DrawTracks(const Tracks& tracks, int frame, int trail, Image* image) {
   }
 }
 
-void WriteTrackOverlay(const std::filesystem::path& footage, const Tracks& tracks,
-                       const std::filesystem::path& video, const Progress& progress) {
+void WriteTrackOverlay(const std::filesystem::path& footage, const TracksBetween& tracks,
+                       std::optional<double> fps, const std::filesystem::path& video,
+                       const Progress& progress) {
   VideoSource source(footage);
-  const double fps = tracks.fps.value_or(source.fps().value_or(30));
-  VideoWriter writer(video, source.width(), source.height(), fps);
+  VideoWriter writer(video, source.width(), source.height(),
+                     fps.value_or(source.fps().value_or(30)));
   Image image;
+  Tracks some;
   for (int frame = 1; source.Read(&image); ++frame) {
-    DrawTracks(tracks, frame, kTrailFrames, &image);
+    if (frame % kTogether == 1) some = tracks(frame - kTrailFrames, frame + kTogether - 1);
+    DrawTracks(some, frame, kTrailFrames, &image);
     writer.Write(std::move(image));
     image = Image();
     Report(progress, frame, source.frame_count().value_or(0));

@@ -7,6 +7,8 @@
 #define FLOCKLIFT_TOOLS_TRACK_OVERLAY_H_
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 
 #include "simulate/core/image.h"
 #include "simulate/core/observations.h"
@@ -18,9 +20,13 @@ namespace flocklift {
 // past.
 void DrawTracks(const Tracks& tracks, int frame, int trail, Image* image);
 
-// The whole video at its own rate (30/s when neither it nor the tracks have one).
-void WriteTrackOverlay(const std::filesystem::path& footage, const Tracks& tracks,
-                       const std::filesystem::path& video, const Progress& progress);
+// The rows of some frames, of tracks that memory need not hold.
+using TracksBetween = std::function<Tracks(int first_frame, int last_frame)>;
+
+// The whole video at `fps`, or its own rate (30/s when it has none).
+void WriteTrackOverlay(const std::filesystem::path& footage, const TracksBetween& tracks,
+                       std::optional<double> fps, const std::filesystem::path& video,
+                       const Progress& progress);
 
 }  // namespace flocklift
 

@@ -123,9 +123,10 @@ std::string NameOfPicture(const PictureSpan& span) {
   return name + ".png";
 }
 
-void WriteTrackPicture(const std::filesystem::path& footage, const Tracks& tracks,
+void WriteTrackPicture(const std::filesystem::path& footage, const TracksBetween& tracks_between,
                        const PictureSpan& span, const std::filesystem::path& picture) {
   VideoSource source(footage);
+  const Tracks tracks = tracks_between(span.first - kTrail, span.last);
   const Box cut = CutOut(tracks, span, source.width(), source.height());
   const int panels = std::min(kMostPanels, span.last - span.first + 1);
   std::vector<Image> shown;

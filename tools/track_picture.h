@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "simulate/core/observations.h"
+#include "tools/track_overlay.h"
 
 namespace flocklift {
 
@@ -27,7 +28,7 @@ PictureSpan ParsePictureSpan(const std::string& text, const std::string& flag);
 std::string NameOfPicture(const PictureSpan& span);
 
 // Throws InputError when the footage ends before the span begins, or no track has one of the ids.
-void WriteTrackPicture(const std::filesystem::path& footage, const Tracks& tracks,
+void WriteTrackPicture(const std::filesystem::path& footage, const TracksBetween& tracks,
                        const PictureSpan& span, const std::filesystem::path& picture);
 
 }  // namespace flocklift

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include "track/predict/smoother.h"
 
@@ -15,15 +17,15 @@ constexpr double kMostSharedConfidence = 0.9;
 constexpr double kMostFilledConfidence = 0.49;
 constexpr std::size_t kLeastWhole = 5;  // sightings that tell an animal's usual size
 
-bool StandsStill(const TrackRecord& record, double min_travel) {
+bool StandsStill(std::span<const TrackPoint> sightings, double size, double min_travel) {
   double left = 1e18, right = -1e18, top = 1e18, bottom = -1e18;
-  for (const TrackPoint& s : record.sightings) {
+  for (const TrackPoint& s : sightings) {
     left = std::min(left, s.position.x);
     right = std::max(right, s.position.x);
     top = std::min(top, s.position.y);
     bottom = std::max(bottom, s.position.y);
   }
-  return std::hypot(right - left, bottom - top) < min_travel * record.size;
+  return std::hypot(right - left, bottom - top) < min_travel * size;
 }
 
 Shape ShapeInImage(Shape shape, const Similarity& world_from_image) {
@@ -53,19 +55,18 @@ double Median(std::vector<double>* values) {
 
 // Where the picture's edge cuts an animal off, its centre is reckoned from the side that is seen
 // and its usual size; sightings whose centre is outside the picture are left out.
-std::vector<TrackPoint> CompletedAtEdges(const std::vector<TrackPoint>& sightings,
-                                         const CameraPath& camera, double image_width,
-                                         double image_height) {
+void CompleteAtEdges(const CameraPath& camera, double image_width, double image_height,
+                     std::vector<TrackPoint>* sightings) {
   std::vector<double> widths, heights;
-  for (const TrackPoint& s : sightings) {
+  for (const TrackPoint& s : *sightings) {
     if (s.edges.any() || s.shared) continue;
     widths.push_back(s.box.width);
     heights.push_back(s.box.height);
   }
-  if (widths.size() < kLeastWhole) return sightings;
+  if (widths.size() < kLeastWhole) return;
   const double width = Median(&widths), height = Median(&heights);
-  std::vector<TrackPoint> completed;
-  for (TrackPoint s : sightings) {
+  std::size_t kept = 0;
+  for (TrackPoint s : *sightings) {
     const Box& b = s.box;
     s.position = camera.ToImage(s.frame, s.position);
     if (s.edges.left) s.position.x = std::min(s.position.x, b.left + b.width - 0.5 * width);
@@ -77,95 +78,101 @@ std::vector<TrackPoint> CompletedAtEdges(const std::vector<TrackPoint>& sighting
       continue;
     }
     s.position = camera.ToWorld(s.frame, s.position);
-    completed.push_back(s);
+    (*sightings)[kept++] = s;
   }
-  return completed;
+  sightings->resize(kept);
 }
 
 Footage FootageOf(const std::vector<TrackRecord>& records, double width, double height) {
   Footage footage{.width = width, .height = height};
   if (records.empty()) return footage;
-  footage.first_frame = records[0].sightings.front().frame;
+  footage.first_frame = records[0].sightings.first_frame();
   for (const TrackRecord& record : records) {
-    footage.first_frame = std::min(footage.first_frame, record.sightings.front().frame);
-    footage.last_frame = std::max(footage.last_frame, record.sightings.back().frame);
+    footage.first_frame = std::min(footage.first_frame, record.sightings.first_frame());
+    footage.last_frame = std::max(footage.last_frame, record.sightings.last_frame());
   }
   return footage;
 }
 
+// The rows of one animal, whose own those of the report's counts are. `sightings` has some.
+std::vector<Detection> RowsOf(const std::vector<TrackPoint>& sightings, const TrackRecord& record,
+                              const MotionNoise& noise, const CameraPath& camera,
+                              double image_width, double image_height, TrackerReport* report) {
+  std::vector<Measurement> measurements;
+  measurements.reserve(sightings.size());
+  for (const TrackPoint& s : sightings) {
+    measurements.push_back({s.frame, s.position, s.variance, s.agility});
+  }
+  const std::vector<MotionState> states =
+      Smooth(measurements, noise.ProcessVariance(record.size), noise.speed_sd);
+  std::vector<Detection> rows;
+  rows.reserve(states.size());
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const int frame = measurements.front().frame + static_cast<int>(k);
+    Detection row;
+    row.frame = frame;
+    const Vec2d p = camera.ToImage(frame, states[k].position);
+    if (sightings[next].frame == frame) {
+      const TrackPoint& s = sightings[next++];
+      if (record.given_id != kNoId) {
+        row.box = s.box;
+        row.confidence = s.given_confidence;
+        rows.push_back(row);
+        continue;
+      }
+      row.box = Box::Around(p, s.box.width, s.box.height);
+      row.confidence =
+          s.shared ? SharedConfidence(s.variance, noise.MeasurementVariance(record.size)) : 1.0;
+      if (!s.shared) row.shape = ShapeInImage(s.shape, camera.WorldFromImage(frame));
+      report->shared_rows += s.shared ? 1 : 0;
+    } else {
+      if (p.x < 0 || p.y < 0 || p.x > image_width - 1 || p.y > image_height - 1) continue;
+      const TrackPoint& before = sightings[next - 1];
+      const TrackPoint& after = sightings[next];
+      const double w = static_cast<double>(frame - before.frame) / (after.frame - before.frame);
+      row.box = Box::Around(p, before.box.width + w * (after.box.width - before.box.width),
+                            before.box.height + w * (after.box.height - before.box.height));
+      row.confidence = FilledConfidence(states[k].pp, record.size);
+      ++report->filled_rows;
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
 }  // namespace
 
-Tracks FinishTracks(const TrackerOptions& options, const MotionNoise& noise,
-                    std::optional<double> frames_per_second, double image_width,
-                    double image_height, const CameraPath& camera, std::vector<TrackRecord> records,
-                    TrackerReport* report) {
-  Tracks tracks;
-  tracks.fps = frames_per_second;
-  const double long_frames = frames_per_second.value_or(30);
+void FinishTracks(const TrackerOptions& options, const MotionNoise& noise, double image_width,
+                  double image_height, const CameraPath& camera, std::vector<TrackRecord> records,
+                  const TakeTracklet& take, TrackerReport* report) {
+  const double long_frames = report->fps.value_or(30);
   const Footage footage = FootageOf(records, image_width, image_height);
   std::vector<Id> ids(records.size(), kNoId);
   for (std::size_t r = 0; r < records.size(); ++r) {
     TrackRecord& record = records[r];
     const bool is_given = record.given_id != kNoId;
     if (!is_given && static_cast<int>(record.sightings.size()) < options.min_length) continue;
-    if (!is_given && static_cast<double>(record.sightings.size()) >= long_frames &&
-        StandsStill(record, options.min_travel)) {
+    std::vector<TrackPoint> sightings = record.sightings.All();
+    record.sightings = {};  // long footage: no row stands here twice
+    if (!is_given && static_cast<double>(sightings.size()) >= long_frames &&
+        StandsStill(sightings, record.size, options.min_travel)) {
       ++report->still_tracks;
       continue;
     }
-    const std::vector<TrackPoint> sightings =
-        is_given ? record.sightings
-                 : CompletedAtEdges(record.sightings, camera, image_width, image_height);
+    const std::vector<Doubt> doubts = DoubtsOf(noise, footage, camera, record.size, sightings);
+    if (!is_given) CompleteAtEdges(camera, image_width, image_height, &sightings);
     if (!is_given && static_cast<int>(sightings.size()) < options.min_length) continue;
-    std::vector<Measurement> measurements;
-    for (const TrackPoint& s : sightings) {
-      measurements.push_back({s.frame, s.position, s.variance, s.agility});
-    }
-    const std::vector<MotionState> states =
-        Smooth(measurements, noise.ProcessVariance(record.size), noise.speed_sd);
-    Tracklet tracklet;
-    tracklet.id = is_given ? record.given_id : static_cast<Id>(tracks.tracklets.size()) + 1;
-    ids[r] = tracklet.id;
-    DoubtTrack(noise, footage, camera, &record);
+    record.doubts.insert(record.doubts.end(), doubts.begin(), doubts.end());
     for (Doubt& d : record.doubts) d.position = camera.ToImage(d.first_frame, d.position);
-    std::size_t next = 0;
-    for (std::size_t k = 0; k < states.size(); ++k) {
-      const int frame = measurements.front().frame + static_cast<int>(k);
-      Detection row;
-      row.frame = frame;
-      const Vec2d p = camera.ToImage(frame, states[k].position);
-      if (sightings[next].frame == frame) {
-        const TrackPoint& s = sightings[next++];
-        if (is_given) {
-          row.box = s.box;
-          row.confidence = s.given_confidence;
-          tracklet.detections.push_back(row);
-          continue;
-        }
-        row.box = Box::Around(p, s.box.width, s.box.height);
-        row.confidence =
-            s.shared ? SharedConfidence(s.variance, noise.MeasurementVariance(record.size)) : 1.0;
-        if (!s.shared) row.shape = ShapeInImage(s.shape, camera.WorldFromImage(frame));
-        report->shared_rows += s.shared ? 1 : 0;
-      } else {
-        if (p.x < 0 || p.y < 0 || p.x > image_width - 1 || p.y > image_height - 1) continue;
-        const TrackPoint& before = sightings[next - 1];
-        const TrackPoint& after = sightings[next];
-        const double w = static_cast<double>(frame - before.frame) / (after.frame - before.frame);
-        row.box = Box::Around(p, before.box.width + w * (after.box.width - before.box.width),
-                              before.box.height + w * (after.box.height - before.box.height));
-        row.confidence = FilledConfidence(states[k].pp, record.size);
-        ++report->filled_rows;
-      }
-      tracklet.detections.push_back(row);
-    }
+    ++report->tracks;
+    ids[r] = is_given ? record.given_id : report->tracks;
+    Tracklet tracklet{ids[r],
+                      RowsOf(sightings, record, noise, camera, image_width, image_height, report)};
     report->rows += static_cast<std::int64_t>(tracklet.detections.size());
-    tracklet.detections.shrink_to_fit();
-    std::vector<TrackPoint>().swap(record.sightings);  // long footage: no row stands here twice
-    tracks.tracklets.push_back(std::move(tracklet));
+    take(std::move(tracklet));
   }
   report->suspicions = RankSuspicions(records, ids);
-  return tracks;
 }
 
 }  // namespace flocklift::internal

@@ -43,7 +43,7 @@ void Linker::Start() {
   const std::vector<Path> paths = UnmistakablePaths(first_, kLeastPath);
   noise_ = EstimateMotionNoise(paths, MotionNoise{});
   model_ = EstimateMotionModel(paths, noise_);
-  tracker_.emplace(options_.associate, model_, width_, height_);
+  tracker_.emplace(options_.associate, model_, width_, height_, file_);
   for (const BlobFrame& frame : first_) Step(frame);
   first_.clear();
 }
@@ -57,56 +57,57 @@ void Linker::Step(const BlobFrame& frame) {
   tracker_->SetNoise(model_);
 }
 
-void Linker::Save(StateWriter* state, StateWriter* log) {
+void Linker::Save(StateWriter* state) const {
   state->Put(noise_);
   state->Put(model_);
   clutter_.Save(state);
   state->Put(separability_);
   state->Put(steps_);
   camera_.Save(state);
-  tracker_->Save(state, log);
+  tracker_->Save(state);
 }
 
-void Linker::Load(StateReader* state, std::string_view log) {
+void Linker::Load(StateReader* state) {
   state->Take(&noise_);
   state->Take(&model_);
   clutter_.Load(state);
   state->Take(&separability_);
   state->Take(&steps_);
   camera_.Load(state);
-  tracker_.emplace(options_.associate, model_, width_, height_);
-  tracker_->Load(state, log);
+  tracker_.emplace(options_.associate, model_, width_, height_, file_);
+  tracker_->Load(state);
 }
 
-TrackerResult Linker::Finish(std::optional<double> fps, TrackerReport report) {
-  double seconds = 0;
-  TrackerResult result = Timed(&seconds, [&] {
+void Linker::Finish(const TakeTracklet& take, TrackerReport* report) {
+  Timed(&report->timings.finish_s, [&] {
     if (!tracker_ && !has_declined()) Start();
-    report.separability = separability_;
-    report.camera_moves = !camera_.rests();
-    report.correlation = model_.correlation;
-    report.clutter = static_cast<std::int64_t>(clutter_.learned());
-    return JoinAndFinish(options_, noise_, fps, width_, height_, camera_,
-                         tracker_ ? tracker_->Finish() : std::vector<TrackRecord>{},
-                         std::move(report));
+    report->separability = separability_;
+    report->camera_moves = !camera_.rests();
+    report->correlation = model_.correlation;
+    report->clutter = static_cast<std::int64_t>(clutter_.learned());
+    JoinAndFinish(options_, noise_, width_, height_, camera_,
+                  tracker_ ? tracker_->Finish() : std::vector<TrackRecord>{}, take, report);
   });
-  result.report.timings.finish_s = seconds;
-  return result;
 }
 
-TrackerResult JoinAndFinish(const TrackerOptions& options, const MotionNoise& noise,
-                            std::optional<double> fps, double width, double height,
-                            const CameraPath& camera, std::vector<TrackRecord> records,
-                            TrackerReport report) {
-  TrackerResult result;
-  result.report = std::move(report);
-  result.report.noise = noise;
-  result.report.exchanges = Uncross(noise, &records);
+void JoinAndFinish(const TrackerOptions& options, const MotionNoise& noise, double width,
+                   double height, const CameraPath& camera, std::vector<TrackRecord> records,
+                   const TakeTracklet& take, TrackerReport* report) {
+  report->noise = noise;
+  report->exchanges = Uncross(noise, &records);
   int joins = 0;
   records = Stitch(options.stitch, noise, width, height, std::move(records), &joins);
-  result.report.joins = joins;
-  result.tracks =
-      FinishTracks(options, noise, fps, width, height, camera, std::move(records), &result.report);
+  report->joins = joins;
+  FinishTracks(options, noise, width, height, camera, std::move(records), take, report);
+}
+
+TrackerResult Gather(TrackerReport report,
+                     const std::function<void(const TakeTracklet&, TrackerReport*)>& finish) {
+  TrackerResult result;
+  result.report = std::move(report);
+  finish([&result](Tracklet t) { result.tracks.tracklets.push_back(std::move(t)); },
+         &result.report);
+  result.tracks.fps = result.report.fps;
   return result;
 }
 

@@ -7,8 +7,8 @@
 #ifndef FLOCKLIFT_TRACK_LINKER_H_
 #define FLOCKLIFT_TRACK_LINKER_H_
 
+#include <functional>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "track/associate/flock_tracker.h"
@@ -20,9 +20,10 @@ namespace flocklift::internal {
 
 class Linker {
  public:
-  // `options` must outlive the linker. Width and height are the picture's [px].
-  Linker(const TrackerOptions& options, double width, double height)
-      : options_(options), width_(width), height_(height) {}
+  // `options` must outlive the linker, and so must `file`, if any (flock_tracker.h). Width and
+  // height are the picture's [px].
+  Linker(const TrackerOptions& options, double width, double height, SightingFile* file = nullptr)
+      : options_(options), width_(width), height_(height), file_(file) {}
 
   void Add(BlobFrame frame);
 
@@ -32,11 +33,11 @@ class Linker {
   // Whether there is a state to save: not while the first frames are kept.
   bool CanSave() const { return tracker_.has_value(); }
   // As FlockTracker's.
-  void Save(StateWriter* state, StateWriter* log);
-  void Load(StateReader* state, std::string_view log);
+  void Save(StateWriter* state) const;
+  void Load(StateReader* state);
 
   // Call once, at the end. `report` holds what is known of the detection; its counts go on.
-  TrackerResult Finish(std::optional<double> fps, TrackerReport report);
+  void Finish(const TakeTracklet& take, TrackerReport* report);
 
  private:
   void Start();
@@ -53,13 +54,17 @@ class Linker {
   std::vector<BlobFrame> first_;
   std::optional<FlockTracker> tracker_;
   int steps_ = 0;
+  SightingFile* file_;
 };
 
 // What is left to do when all sightings are there: mend, stitch, finish.
-TrackerResult JoinAndFinish(const TrackerOptions& options, const MotionNoise& noise,
-                            std::optional<double> fps, double width, double height,
-                            const CameraPath& camera, std::vector<TrackRecord> records,
-                            TrackerReport report);
+void JoinAndFinish(const TrackerOptions& options, const MotionNoise& noise, double width,
+                   double height, const CameraPath& camera, std::vector<TrackRecord> records,
+                   const TakeTracklet& take, TrackerReport* report);
+
+// The result of what finishes tracks one by one: all of them together.
+TrackerResult Gather(TrackerReport report,
+                     const std::function<void(const TakeTracklet&, TrackerReport*)>& finish);
 
 }  // namespace flocklift::internal
 

@@ -26,9 +26,9 @@ constexpr double kMarginSizes = 3;
 constexpr std::size_t kMostJumps = 3;  // of one track
 
 // Steps that not even the most agile motion announces, the longest first.
-void AddJumps(const MotionNoise& noise, TrackRecord* track) {
-  const std::vector<TrackPoint>& all = track->sightings;
-  const double q = kAgility * noise.ProcessVariance(track->size);
+void AddJumps(const MotionNoise& noise, double size, std::span<const TrackPoint> all,
+              std::vector<Doubt>* doubts) {
+  const double q = kAgility * noise.ProcessVariance(size);
   std::vector<Doubt> jumps;
   MotionState state{all[0].position, {0, 0}, all[0].variance, 0, noise.speed_sd * noise.speed_sd};
   for (std::size_t k = 1; k < all.size(); ++k) {
@@ -44,18 +44,17 @@ void AddJumps(const MotionNoise& noise, TrackRecord* track) {
   std::stable_sort(jumps.begin(), jumps.end(),
                    [](const Doubt& a, const Doubt& b) { return a.chance > b.chance; });
   jumps.resize(std::min(jumps.size(), kMostJumps));
-  track->doubts.insert(track->doubts.end(), jumps.begin(), jumps.end());
+  doubts->insert(doubts->end(), jumps.begin(), jumps.end());
 }
 
-void AddMerges(TrackRecord* track) {
-  const std::vector<TrackPoint>& all = track->sightings;
+void AddMerges(std::span<const TrackPoint> all, std::vector<Doubt>* doubts) {
   for (std::size_t first = 0; first < all.size(); ++first) {
     if (!all[first].hidden) continue;
     std::size_t last = first;
     while (last + 1 < all.size() && all[last + 1].hidden) ++last;
     if (all[last].frame - all[first].frame >= kLongHidden) {
-      track->doubts.push_back({DoubtKind::kMerge, all[first].frame, all[last].frame,
-                               all[first].position, kMergeChance});
+      doubts->push_back({DoubtKind::kMerge, all[first].frame, all[last].frame, all[first].position,
+                         kMergeChance});
     }
     first = last;
   }
@@ -73,19 +72,16 @@ bool IsInside(const TrackPoint& end, const TrackPoint& before, double size,
          p.y < footage.height - margin;
 }
 
-void AddBreaks(const Footage& footage, const internal::CameraPath& camera, TrackRecord* track) {
-  const std::vector<TrackPoint>& all = track->sightings;
+void AddBreaks(const Footage& footage, const internal::CameraPath& camera, double size,
+               std::span<const TrackPoint> all, std::vector<Doubt>* doubts) {
   const std::size_t some = std::min<std::size_t>(4, all.size() - 1);
   const TrackPoint &first = all.front(), &last = all.back();
-  if (first.frame > footage.first_frame + 1 &&
-      IsInside(first, all[some], track->size, camera, footage)) {
-    track->doubts.push_back(
-        {DoubtKind::kBreak, first.frame, first.frame, first.position, kBreakChance});
+  if (first.frame > footage.first_frame + 1 && IsInside(first, all[some], size, camera, footage)) {
+    doubts->push_back({DoubtKind::kBreak, first.frame, first.frame, first.position, kBreakChance});
   }
   if (last.frame < footage.last_frame - 1 &&
-      IsInside(last, all[all.size() - 1 - some], track->size, camera, footage)) {
-    track->doubts.push_back(
-        {DoubtKind::kBreak, last.frame, last.frame, last.position, kBreakChance});
+      IsInside(last, all[all.size() - 1 - some], size, camera, footage)) {
+    doubts->push_back({DoubtKind::kBreak, last.frame, last.frame, last.position, kBreakChance});
   }
 }
 
@@ -107,12 +103,15 @@ const char* NameOf(DoubtKind kind) {
   return "";
 }
 
-void DoubtTrack(const MotionNoise& noise, const Footage& footage,
-                const internal::CameraPath& camera, TrackRecord* track) {
-  FLOCKLIFT_DCHECK(!track->sightings.empty());
-  AddJumps(noise, track);
-  AddMerges(track);
-  AddBreaks(footage, camera, track);
+std::vector<Doubt> DoubtsOf(const MotionNoise& noise, const Footage& footage,
+                            const internal::CameraPath& camera, double size,
+                            std::span<const TrackPoint> sightings) {
+  FLOCKLIFT_DCHECK(!sightings.empty());
+  std::vector<Doubt> doubts;
+  AddJumps(noise, size, sightings, &doubts);
+  AddMerges(sightings, &doubts);
+  AddBreaks(footage, camera, size, sightings, &doubts);
+  return doubts;
 }
 
 std::vector<Suspicion> RankSuspicions(std::span<const TrackRecord> records,

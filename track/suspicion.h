@@ -33,10 +33,11 @@ struct Footage {
   int first_frame = 1, last_frame = 1;
 };
 
-// Adds to a track's doubts those that it shows by itself: jumps, long stays behind others, and
-// beginnings and ends inside the picture. The track is in the world of `camera`.
-void DoubtTrack(const MotionNoise& noise, const Footage& footage,
-                const internal::CameraPath& camera, TrackRecord* track);
+// What a track makes doubt by itself: jumps, long stays behind others, and beginnings and ends
+// inside the picture. Its sightings, not none, are in the world of `camera`; `size` is its own.
+std::vector<Doubt> DoubtsOf(const MotionNoise& noise, const Footage& footage,
+                            const internal::CameraPath& camera, double size,
+                            std::span<const TrackPoint> sightings);
 
 // Doubts of finished tracks; `ids` has one for each record (kNoId: the track was dropped). Those
 // of two tracks about the same encounter become one.

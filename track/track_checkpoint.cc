@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLayout = 2;  // of the saved state: another whenever something else is saved
+constexpr int kLayout = 3;  // of the saved state: another whenever something else is saved
 
 // As a visitor of Describe.
 struct TextOfOptions {
@@ -59,28 +59,33 @@ std::string FingerprintOf(const TrackerOptions& options, const fs::path& footage
 }
 
 TrackCheckpoint::TrackCheckpoint(const CheckpointPlace& place, std::string fingerprint)
-    : place_(place),
-      fingerprint_(std::move(fingerprint)),
-      last_(std::chrono::steady_clock::now()) {}
+    : place_(place), fingerprint_(std::move(fingerprint)), last_(std::chrono::steady_clock::now()) {
+  if (!place_.folder.empty()) sightings_.emplace(place_.folder / "sightings");
+}
 
-// The state file: the fingerprint, the frame, the size of the log, the state.
+TrackCheckpoint::~TrackCheckpoint() {
+  if (!has_state_) Remove();
+}
+
+// The state file: the fingerprint, the frame, the size of the sightings' file, the state.
 std::optional<TrackCheckpoint::Saved> TrackCheckpoint::Load() {
   if (place_.folder.empty()) return std::nullopt;
   Saved saved;
   saved.state = BytesOf(place_.folder / "state");
-  saved.log = BytesOf(place_.folder / "sightings");
-  const std::size_t head = fingerprint_.size() + sizeof saved.frame + sizeof log_size_;
+  std::uint64_t size = 0;
+  const std::size_t head = fingerprint_.size() + sizeof saved.frame + sizeof size;
   if (saved.state.starts_with(fingerprint_) && saved.state.size() >= head) {
     StateReader in(std::string_view(saved.state).substr(fingerprint_.size()));
     in.Take(&saved.frame);
-    in.Take(&log_size_);
-    if (saved.log.size() >= log_size_) {
+    in.Take(&size);
+    std::error_code none;
+    const std::uintmax_t there = fs::file_size(place_.folder / "sightings", none);
+    if (size == 0 || (!none && there >= size)) {
       saved.state.erase(0, head);
-      saved.log.resize(log_size_);
+      has_state_ = true;
       return saved;
     }
   }
-  log_size_ = 0;
   Remove();
   return std::nullopt;
 }
@@ -89,19 +94,12 @@ bool TrackCheckpoint::IsDue() const {
   return !place_.folder.empty() && std::chrono::steady_clock::now() - last_ >= place_.every;
 }
 
-void TrackCheckpoint::Keep(std::int64_t frame, std::string_view state, std::string_view log) {
-  fs::create_directories(place_.folder);
-  const fs::path path = place_.folder / "sightings";
-  if (fs::exists(path)) fs::resize_file(path, log_size_);  // what a kill left behind
-  std::ofstream file(path, std::ios::binary | std::ios::app);
-  file.write(log.data(), static_cast<std::streamsize>(log.size()));
-  file.close();
-  if (!file) throw std::runtime_error(path.string() + " cannot be written");
-  log_size_ += log.size();
+void TrackCheckpoint::Keep(std::int64_t frame, std::string_view state) {
   StateWriter head;
   head.Put(frame);
-  head.Put(log_size_);
+  head.Put(sightings_->size());
   WriteTextFile(place_.folder / "state", fingerprint_ + head.bytes() + std::string(state));
+  has_state_ = true;
   last_ = std::chrono::steady_clock::now();
 }
 

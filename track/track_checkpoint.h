@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a killed run goes on from: a folder with all sightings so far (`sightings`, appended to) and
-// the state of detection and association after some frame (`state`, replaced as a whole, which
-// says how much of `sightings` is of it). A state that is not of this footage, these options and
-// this program is ignored.
+// What a killed run goes on from: a folder with the sightings so far (`sightings`, which grows all
+// the time) and the state of detection and association after some frame (`state`, replaced as a
+// whole, which says how much of `sightings` is of it). A state that is not of this footage, these
+// options and this program is ignored.
 
 #ifndef FLOCKLIFT_TRACK_TRACK_CHECKPOINT_H_
 #define FLOCKLIFT_TRACK_TRACK_CHECKPOINT_H_
@@ -28,19 +28,22 @@ class TrackCheckpoint {
   struct Saved {
     std::int64_t frame = 0;  // the last one that is in the state
     std::string state;
-    std::string log;
   };
 
   // An empty folder name keeps nothing.
   TrackCheckpoint(const CheckpointPlace& place, std::string fingerprint);
+  // Leaves no folder from which nothing can go on.
+  ~TrackCheckpoint();
+
+  // Where the sightings go; none without a folder.
+  SightingFile* sightings() { return sightings_ ? &*sightings_ : nullptr; }
 
   // Nothing when there is no checkpoint of this run; what is there is then removed.
   std::optional<Saved> Load();
 
   bool IsDue() const;
-  // `log` is what came since the last Keep or Load. Throws std::runtime_error when it cannot be
-  // written.
-  void Keep(std::int64_t frame, std::string_view state, std::string_view log);
+  // Throws std::runtime_error when it cannot be written.
+  void Keep(std::int64_t frame, std::string_view state);
 
   // The run is over.
   void Remove();
@@ -48,7 +51,8 @@ class TrackCheckpoint {
  private:
   CheckpointPlace place_;
   std::string fingerprint_;
-  std::uint64_t log_size_ = 0;
+  std::optional<SightingFile> sightings_;
+  bool has_state_ = false;
   std::chrono::steady_clock::time_point last_;
 };
 

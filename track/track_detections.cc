@@ -72,13 +72,15 @@ TrackRecord RecordOf(const Tracklet& tracklet, const MotionNoise& noise) {
   const Detection& middle = tracklet.detections[tracklet.detections.size() / 2];
   record.size = SizeOf(middle);
   record.mass = record.size * record.size;
+  std::vector<TrackPoint> sightings;
   for (const Detection& d : tracklet.detections) {
-    record.sightings.push_back({.frame = d.frame,
-                                .position = d.box.Center(),
-                                .variance = noise.MeasurementVariance(record.size),
-                                .box = d.box,
-                                .given_confidence = d.confidence});
+    sightings.push_back({.frame = d.frame,
+                         .position = d.box.Center(),
+                         .variance = noise.MeasurementVariance(record.size),
+                         .box = d.box,
+                         .given_confidence = d.confidence});
   }
+  record.sightings.Append(std::move(sightings));
   return record;
 }
 
@@ -89,16 +91,20 @@ TrackerResult ContinueTracks(const TrackerOptions& options, const Tracks& tracks
   CheckOptions(options);
   Check(image_width > 0 && image_height > 0, "the picture has no size");
   const Stopwatch total;
-  TrackerResult result;
-  Timed(&result.report.timings.finish_s, [&] {
-    const MotionNoise noise = EstimateMotionNoise(PathsOf(tracks), MotionNoise{});
-    std::vector<TrackRecord> records;
-    for (const Tracklet& tracklet : tracks.tracklets) {
-      if (!tracklet.detections.empty()) records.push_back(RecordOf(tracklet, noise));
-    }
-    result = internal::JoinAndFinish(options, noise, tracks.fps, image_width, image_height, {},
-                                     std::move(records), std::move(result.report));
-  });
+  TrackerReport report;
+  report.fps = tracks.fps;
+  TrackerResult result =
+      internal::Gather(std::move(report), [&](const TakeTracklet& take, TrackerReport* finished) {
+        const Stopwatch finish;
+        const MotionNoise noise = EstimateMotionNoise(PathsOf(tracks), MotionNoise{});
+        std::vector<TrackRecord> records;
+        for (const Tracklet& tracklet : tracks.tracklets) {
+          if (!tracklet.detections.empty()) records.push_back(RecordOf(tracklet, noise));
+        }
+        internal::JoinAndFinish(options, noise, image_width, image_height, {}, std::move(records),
+                                take, finished);
+        finished->timings.finish_s = finish.Seconds();
+      });
   result.report.timings.total_s = total.Seconds();
   return result;
 }
@@ -121,7 +127,10 @@ TrackerResult TrackDetections(const TrackerOptions& options, std::span<const Det
     report.detections += static_cast<std::int64_t>(blobs.blobs.size());
     Timed(&report.timings.associate_s, [&] { linker.Add(std::move(blobs)); });
   }
-  TrackerResult result = linker.Finish(fps, std::move(report));
+  report.fps = fps;
+  TrackerResult result = internal::Gather(
+      std::move(report),
+      [&](const TakeTracklet& take, TrackerReport* finished) { linker.Finish(take, finished); });
   result.report.timings.total_s = total.Seconds();
   return result;
 }

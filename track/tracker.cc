@@ -169,24 +169,24 @@ void GoOn(const TrackCheckpoint::Saved& saved, VideoSource* video, Finder* finde
   StateReader state(saved.state);
   finder->Load(&state);
   state.Take(&report->detections);
-  linker->Load(&state, saved.log);
+  linker->Load(&state);
   report->frames = saved.frame;
   video->Skip(saved.frame);
 }
 
-void Save(const std::string& finder_state, const TrackerReport& report, Linker* linker,
+void Save(const std::string& finder_state, const TrackerReport& report, const Linker& linker,
           TrackCheckpoint* checkpoint) {
-  StateWriter state, log;
+  StateWriter state;
   state.Put(report.detections);
-  linker->Save(&state, &log);
-  checkpoint->Keep(report.frames, finder_state + state.bytes(), log.bytes());
+  linker.Save(&state);
+  checkpoint->Keep(report.frames, finder_state + state.bytes());
 }
 
 }  // namespace
 
-TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::path& path,
-                         const Progress& progress, std::optional<double> fps,
-                         const CheckpointPlace& place) {
+TrackerReport StreamTracks(const TrackerOptions& options, const std::filesystem::path& path,
+                           const TakeTracklet& take, const Progress& progress,
+                           std::optional<double> fps, const CheckpointPlace& place) {
   CheckOptions(options);
   const Stopwatch total;
   VideoSource video(path);
@@ -196,7 +196,7 @@ TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::p
   const bool is_saved = !place.folder.empty();
   TrackCheckpoint checkpoint(place, is_saved ? internal::FingerprintOf(options, path) : "");
   Finder finder(options, is_saved, &timings);
-  Linker linker(options, video.width(), video.height());
+  Linker linker(options, video.width(), video.height(), checkpoint.sightings());
   const std::optional<TrackCheckpoint::Saved> saved = checkpoint.Load();
   if (saved) GoOn(*saved, &video, &finder, &linker, &report);
   const std::int64_t frames_before = report.frames;
@@ -219,7 +219,7 @@ TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::p
       report.detections += static_cast<std::int64_t>(found->blobs.blobs.size());
       Timed(&timings.associate_s, [&] { linker.Add(std::move(found->blobs)); });
       if (!found->state.empty() && linker.CanSave() && checkpoint.IsDue()) {
-        Save(found->state, report, &linker, &checkpoint);
+        Save(found->state, report, linker, &checkpoint);
       }
       Report(progress, report.frames, declared);
     }
@@ -245,11 +245,20 @@ TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::p
                               " frames, but only " + std::to_string(report.frames) +
                               " could be read");
   }
-  TrackerResult result = linker.Finish(fps ? fps : video.fps(), std::move(report));
+  report.fps = fps ? fps : video.fps();
+  linker.Finish(take, &report);
   checkpoint.Remove();
-  result.report.timings.total_s = total.Seconds();
-  result.report.frames_before = frames_before;
-  return result;
+  report.timings.total_s = total.Seconds();
+  report.frames_before = frames_before;
+  return report;
+}
+
+TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::path& path,
+                         const Progress& progress, std::optional<double> fps,
+                         const CheckpointPlace& place) {
+  return internal::Gather({}, [&](const TakeTracklet& take, TrackerReport* report) {
+    *report = StreamTracks(options, path, take, progress, fps, place);
+  });
 }
 
 }  // namespace flocklift

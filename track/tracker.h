@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,18 +60,20 @@ struct TrackerTimings {
 };
 
 struct TrackerReport {
+  std::optional<double> fps;  // given, or the footage's [1/s]
   std::int64_t frames = 0;
   std::int64_t frames_before = 0;  // of these, of a run before that was killed
   std::int64_t detections = 0;     // blobs
-  std::int64_t rows = 0;           // of all tracks
-  std::int64_t shared_rows = 0;    // of these, from blobs that held several animals
-  std::int64_t filled_rows = 0;    // of these, interpolated
-  std::int64_t joins = 0;          // tracks stitched to one before
-  std::int64_t exchanges = 0;      // of tracks after a shared blob
-  std::int64_t still_tracks = 0;   // dropped: they did not move
-  std::int64_t clutter = 0;        // places where something stood from the start (static_clutter.h)
-  Separability separability;       // of the first seconds; not enough: there are no tracks
-  bool camera_moves = false;       // and was followed
+  std::int64_t tracks = 0;
+  std::int64_t rows = 0;          // of all tracks
+  std::int64_t shared_rows = 0;   // of these, from blobs that held several animals
+  std::int64_t filled_rows = 0;   // of these, interpolated
+  std::int64_t joins = 0;         // tracks stitched to one before
+  std::int64_t exchanges = 0;     // of tracks after a shared blob
+  std::int64_t still_tracks = 0;  // dropped: they did not move
+  std::int64_t clutter = 0;       // places where something stood from the start (static_clutter.h)
+  Separability separability;      // of the first seconds; not enough: there are no tracks
+  bool camera_moves = false;      // and was followed
   std::vector<Suspicion> suspicions;  // the likeliest mistake first
   MotionNoise noise;                  // as learned, with constant velocity
   double correlation = 0;             // of Singer's model where that predicts better [frames]
@@ -86,16 +89,27 @@ struct TrackerResult {
   TrackerReport report;
 };
 
-// Where a run keeps what it goes on from when it is killed; not an option, as it decides no byte.
+// Where a run keeps what memory does not hold, and what it goes on from when it is killed; not an
+// option, as it decides no byte.
 struct CheckpointPlace {
-  std::filesystem::path folder = {};  // empty: nothing is kept
+  std::filesystem::path folder = {};  // empty: nothing is kept, all tracks are in memory
   std::chrono::seconds every{20};     // of wall time
 };
 
-// Tracks what a video shows. Memory: a few dozen frames, and the tracks. `fps` overrides the
-// video's. A run that was killed goes on from its checkpoint and ends with the same bytes; the
-// checkpoint is removed at the end. Throws InputError when there is nothing to read
+// What becomes of a finished track.
+using TakeTracklet = std::function<void(Tracklet)>;
+
+// Tracks what a video shows, and gives each track, ids 1, 2, ... by first frame, to `take`. `fps`
+// overrides the video's. Memory: a few dozen frames, the newest sightings of the animals in view,
+// some numbers a track, and at the end one track at a time; the rest is in the checkpoint's folder,
+// about 130 bytes a row. A run that was killed goes on from its checkpoint and ends with the same
+// bytes; the folder is removed at the end. Throws InputError when there is nothing to read
 // (video_source.h).
+TrackerReport StreamTracks(const TrackerOptions& options, const std::filesystem::path& path,
+                           const TakeTracklet& take, const Progress& progress = {},
+                           std::optional<double> fps = {}, const CheckpointPlace& checkpoint = {});
+
+// The same, with all tracks in memory.
 TrackerResult TrackVideo(const TrackerOptions& options, const std::filesystem::path& path,
                          const Progress& progress = {}, std::optional<double> fps = {},
                          const CheckpointPlace& checkpoint = {});

@@ -91,7 +91,8 @@ class AnimalRows {
 };
 
 // Calls `take(id, row)` for the rows of all animals by frame, then id. `rows_of` gives an animal's
-// rows, which must be by increasing frame.
+// rows, which must be by increasing frame. Each is wanted once, and the next one's frame: rows may
+// be read as they are wanted; those with a Release() are told when the last was taken.
 template <typename Animals, typename RowsOf, typename Take>
 void ForEachByFrame(const Animals& animals, const RowsOf& rows_of, const Take& take) {
   using Next = std::tuple<Id, std::size_t, std::size_t>;  // id, animal, row
@@ -109,7 +110,10 @@ void ForEachByFrame(const Animals& animals, const RowsOf& rows_of, const Take& t
     for (const auto& [id, animal, row] : now) {
       const auto& rows = rows_of(animals[animal]);
       take(id, rows[row]);
-      if (row + 1 == rows.size()) continue;
+      if (row + 1 == rows.size()) {
+        if constexpr (requires { rows.Release(); }) rows.Release();
+        continue;
+      }
       const int frame = rows[row + 1].frame;
       if (next == waiting.end() || next->first != frame) next = waiting.try_emplace(frame).first;
       next->second.emplace_back(id, animal, row + 1);

@@ -77,6 +77,18 @@ void ReadShapes(std::istream& stream, const std::string& name, Tracks* tracks);
 // Writes the detections that have a shape.
 void WriteShapes(const std::filesystem::path& path, const Tracks& tracks);
 
+// Writes the shapes of rows as they come, of those that have one. Without Commit no file appears.
+class ShapeWriter {
+ public:
+  ShapeWriter(const std::filesystem::path& path, std::optional<double> fps);
+  ~ShapeWriter();
+  void Add(Id id, const Detection& detection);
+  void Commit();
+
+ private:
+  std::unique_ptr<internal::TableWriter> writer_;
+};
+
 // ---- trajectories: `frame,id,x,y,z` and the optional columns, with header -----------------------
 
 Trajectories ReadTrajectories(const std::filesystem::path& path);

@@ -78,22 +78,29 @@ void ReadShapes(const std::filesystem::path& path, Tracks* tracks) {
   ReadShapes(stream, path.string(), tracks);
 }
 
+ShapeWriter::ShapeWriter(const std::filesystem::path& path, std::optional<double> fps)
+    : writer_(internal::TableWriter::Create(path, Layout(), {true}, fps,
+                                            {.decimals = kDecimals, .end_of_row = ""})) {}
+ShapeWriter::~ShapeWriter() = default;
+
+void ShapeWriter::Add(Id id, const Detection& detection) {
+  if (!detection.shape) return;
+  const Shape& shape = *detection.shape;
+  // An angle that would round to 180 is 0.
+  const bool wraps = shape.angle_deg > kHalfTurn - 0.5 * kSmallest;
+  const std::array<double, 4> values{std::max(shape.major, kSmallest), shape.minor,
+                                     wraps ? 0 : shape.angle_deg, std::max(shape.area, kSmallest)};
+  writer_->Add(detection.frame, id, values);
+}
+
+void ShapeWriter::Commit() { writer_->Commit(); }
+
 void WriteShapes(const std::filesystem::path& path, const Tracks& tracks) {
-  const auto writer = internal::TableWriter::Create(path, Layout(), {true}, tracks.fps,
-                                                    {.decimals = kDecimals, .end_of_row = ""});
+  ShapeWriter writer(path, tracks.fps);
   internal::ForEachByFrame(
       tracks.tracklets, [](const Tracklet& t) -> const auto& { return t.detections; },
-      [&](Id id, const Detection& detection) {
-        if (!detection.shape) return;
-        const Shape& shape = *detection.shape;
-        // An angle that would round to 180 is 0.
-        const bool wraps = shape.angle_deg > kHalfTurn - 0.5 * kSmallest;
-        const std::array<double, 4> values{std::max(shape.major, kSmallest), shape.minor,
-                                           wraps ? 0 : shape.angle_deg,
-                                           std::max(shape.area, kSmallest)};
-        writer->Add(detection.frame, id, values);
-      });
-  writer->Commit();
+      [&](Id id, const Detection& detection) { writer.Add(id, detection); });
+  writer.Commit();
 }
 
 }  // namespace flocklift

@@ -127,7 +127,10 @@ TEST(StaticClutterTest, BirdsBesideATreeAreTracked) {
     for (int k = 0; k < kBirds; ++k) blobs.push_back(At({10 + 3.0 * frame, 20 + 25.0 * k}));
     linker.Add(BlobsOf(frame, blobs));
   }
-  const TrackerResult result = linker.Finish(30, {});
+  TrackerReport report;
+  report.fps = 30;
+  const TrackerResult result = Gather(
+      report, [&](const TakeTracklet& take, TrackerReport* all) { linker.Finish(take, all); });
   EXPECT_TRUE(result.report.separability.is_enough);
   EXPECT_GT(result.report.clutter, kLeaves / 2);
   int birds = 0;

@@ -13,62 +13,61 @@ namespace {
 const MotionNoise kNoise{.acceleration = 0.02, .measurement = 0.05, .speed_sd = 5};
 const Footage kFootage{.width = 1280, .height = 720, .first_frame = 1, .last_frame = 60};
 
-TrackRecord Straight(int first, int last) {
-  TrackRecord track{.size = 5, .mass = 1000, .sightings = {}, .doubts = {}};
+constexpr double kSize = 5;
+
+std::vector<TrackPoint> Straight(int first, int last) {
+  std::vector<TrackPoint> track;
   for (int frame = first; frame <= last; ++frame) {
     Rng rng(3, static_cast<std::uint64_t>(frame));
-    track.sightings.push_back(
-        {.frame = frame,
-         .position = {300 + 4.0 * frame + 0.1 * rng.Normal(), 300 + 0.1 * rng.Normal()},
-         .variance = 0.08,
-         .box = Box::Around({0, 0}, 9, 7)});
+    track.push_back({.frame = frame,
+                     .position = {300 + 4.0 * frame + 0.1 * rng.Normal(), 300 + 0.1 * rng.Normal()},
+                     .variance = 0.08,
+                     .box = Box::Around({0, 0}, 9, 7)});
   }
   return track;
 }
 
 TEST(SuspicionTest, ACleanTrackIsNotSuspected) {
-  TrackRecord track = Straight(1, 60);
-  DoubtTrack(kNoise, kFootage, {}, &track);
-  EXPECT_TRUE(track.doubts.empty());
+  std::vector<TrackPoint> track = Straight(1, 60);
+  EXPECT_TRUE(DoubtsOf(kNoise, kFootage, {}, kSize, track).empty());
 }
 
 TEST(SuspicionTest, AJumpIsFoundWhereItIs) {
-  TrackRecord track = Straight(1, 60);
-  for (int k = 30; k < 60; ++k) track.sightings[k].position.y += 12;
-  DoubtTrack(kNoise, kFootage, {}, &track);
-  ASSERT_FALSE(track.doubts.empty());
-  EXPECT_EQ(track.doubts[0].kind, DoubtKind::kJump);
-  EXPECT_EQ(track.doubts[0].first_frame, 30);
-  EXPECT_EQ(track.doubts[0].last_frame, 31);
+  std::vector<TrackPoint> track = Straight(1, 60);
+  for (int k = 30; k < 60; ++k) track[k].position.y += 12;
+  const std::vector<Doubt> doubts = DoubtsOf(kNoise, kFootage, {}, kSize, track);
+  ASSERT_FALSE(doubts.empty());
+  EXPECT_EQ(doubts[0].kind, DoubtKind::kJump);
+  EXPECT_EQ(doubts[0].first_frame, 30);
+  EXPECT_EQ(doubts[0].last_frame, 31);
 }
 
 TEST(SuspicionTest, BeginningsAndEndsInsideThePictureAreBreaks) {
-  TrackRecord track = Straight(20, 40);
-  DoubtTrack(kNoise, kFootage, {}, &track);
-  ASSERT_EQ(track.doubts.size(), 2u);
-  for (const Doubt& d : track.doubts) EXPECT_EQ(d.kind, DoubtKind::kBreak);
-  EXPECT_EQ(track.doubts[0].first_frame, 20);
-  EXPECT_EQ(track.doubts[1].first_frame, 40);
+  std::vector<TrackPoint> track = Straight(20, 40);
+  const std::vector<Doubt> doubts = DoubtsOf(kNoise, kFootage, {}, kSize, track);
+  ASSERT_EQ(doubts.size(), 2u);
+  for (const Doubt& d : doubts) EXPECT_EQ(d.kind, DoubtKind::kBreak);
+  EXPECT_EQ(doubts[0].first_frame, 20);
+  EXPECT_EQ(doubts[1].first_frame, 40);
   // Leaving by the right edge is none.
-  TrackRecord leaving = Straight(1, 40);
+  std::vector<TrackPoint> leaving = Straight(1, 40);
   Footage narrow = kFootage;
   narrow.width = 480;
-  DoubtTrack(kNoise, narrow, {}, &leaving);
-  EXPECT_TRUE(leaving.doubts.empty());
+  EXPECT_TRUE(DoubtsOf(kNoise, narrow, {}, kSize, leaving).empty());
 }
 
 TEST(SuspicionTest, ALongStayBehindAnother) {
-  TrackRecord track = Straight(1, 60);
-  for (int k = 20; k < 36; ++k) track.sightings[k].hidden = true;
-  DoubtTrack(kNoise, kFootage, {}, &track);
-  ASSERT_EQ(track.doubts.size(), 1u);
-  EXPECT_EQ(track.doubts[0].kind, DoubtKind::kMerge);
-  EXPECT_EQ(track.doubts[0].first_frame, 21);
-  EXPECT_EQ(track.doubts[0].last_frame, 36);
+  std::vector<TrackPoint> track = Straight(1, 60);
+  for (int k = 20; k < 36; ++k) track[k].hidden = true;
+  const std::vector<Doubt> doubts = DoubtsOf(kNoise, kFootage, {}, kSize, track);
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_EQ(doubts[0].kind, DoubtKind::kMerge);
+  EXPECT_EQ(doubts[0].first_frame, 21);
+  EXPECT_EQ(doubts[0].last_frame, 36);
 }
 
 TEST(SuspicionTest, RanksByChanceAndJoinsTheTwoOfAnEncounter) {
-  TrackRecord a = Straight(1, 60), b = a, dropped = a;
+  TrackRecord a, b, dropped;
   const Doubt swap{DoubtKind::kSwap, 10, 12, {5, 6}, 0.4};
   const Doubt jump{DoubtKind::kJump, 20, 21, {7, 8}, 0.7};
   const Doubt slight{DoubtKind::kJoin, 20, 25, {7, 8}, 0.01};

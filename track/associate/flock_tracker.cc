@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "track/associate/assignment.h"
 #include "track/associate/occupants.h"
@@ -19,18 +20,20 @@ namespace {
 constexpr double kShareCost = 1.5;       // a shared blob is less likely than one of its own
 constexpr double kMemory = 0.15;         // weight of the newest size, mass and shape
 constexpr std::size_t kPathFrames = 60;  // of the past that tell how an animal moves
+constexpr std::size_t kStretch = 128;    // sightings that go into the file together
 
 double SpreadOf(const Moments& m) { return 0.5 * (m.xx + m.yy); }
 
 }  // namespace
 
 FlockTracker::FlockTracker(const AssociationOptions& options, const MotionNoise& noise,
-                           double image_width, double image_height)
+                           double image_width, double image_height, SightingFile* file)
     : options_(options),
       noise_(noise),
       width_(image_width),
       height_(image_height),
-      gate_(-2 * std::log(1 - options.gate_probability)) {  // chi-square, 2 degrees of freedom
+      gate_(-2 * std::log(1 - options.gate_probability)),  // chi-square, 2 degrees of freedom
+      file_(file) {
   CheckOptions(options);
 }
 
@@ -109,7 +112,7 @@ void FlockTracker::Sight(const BlobFrame& blobs, const Observation& o, Animal* a
                       .blob = o.blob};
   animal->hidden = sighting.hidden ? animal->hidden + 1 : 0;
   if (shared) {
-    const TrackPoint& before = record.sightings.back();
+    const TrackPoint& before = animal->newest.back();
     sighting.box = Box::Around(o.position, before.box.width, before.box.height);
     sighting.edges = {};
     sighting.shape = before.shape;
@@ -123,7 +126,24 @@ void FlockTracker::Sight(const BlobFrame& blobs, const Observation& o, Animal* a
     animal->moments.yy += w * (blob.moments.yy - animal->moments.yy);
     sighting.shape = ShapeOf(blob.moments, blob.mass / std::max(blob.peak, 1e-9));
   }
-  record.sightings.push_back(sighting);
+  animal->newest.push_back(sighting);
+  if (file_ == nullptr) return;
+  // What is hidden may be taken back.
+  const std::size_t kept = std::max<std::size_t>(kPathFrames, animal->hidden + 1);
+  if (animal->newest.size() >= kept + kStretch) PutAside(kStretch, animal);
+}
+
+// The oldest of the newest.
+void FlockTracker::PutAside(std::size_t count, Animal* animal) {
+  std::vector<TrackPoint>& newest = animal->newest;
+  Sightings& older = animal->record.sightings;
+  if (file_ == nullptr) {
+    newest.resize(count);
+    older.Append(std::exchange(newest, {}));
+    return;
+  }
+  older.Append(std::span(newest).first(count), animal->number, file_);
+  newest.erase(newest.begin(), newest.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 void FlockTracker::UpdateAll(const BlobFrame& blobs, const std::vector<Observation>& observations,
@@ -149,11 +169,11 @@ void FlockTracker::UpdateAll(const BlobFrame& blobs, const std::vector<Observati
 
 void FlockTracker::End(Animal* animal) {
   if (!animal->confirmed) return;
-  std::vector<TrackPoint>& sightings = animal->record.sightings;
-  while (sightings.back().hidden) sightings.pop_back();  // the first never is
-  sightings.shrink_to_fit();
+  std::vector<TrackPoint>& newest = animal->newest;
+  while (newest.back().hidden) newest.pop_back();  // the first never is
+  PutAside(newest.size(), animal);
   finished_.push_back(std::move(animal->record));
-  finished_logged_.push_back(animal->logged);
+  finished_numbers_.push_back(animal->number);
 }
 
 void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observation>& observations,
@@ -197,10 +217,10 @@ void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observa
     animal.motion = MotionFilter(
         noise_.Start(blob.center, variance, noise_.ProcessVariance(animal.record.size)));
     animal.hits = 1;
-    animal.logged.number = ++begun_;
+    animal.number = ++begun_;
     if (!blob.cut && !blob.edges.any()) NoteAlone(blobs.frame, &animal);
     animal.confirmed = options_.confirm_hits <= 1;
-    animal.record.sightings.push_back(
+    animal.newest.push_back(
         {.frame = blobs.frame,
          .position = blob.center,
          .variance = variance,
@@ -215,7 +235,7 @@ void FlockTracker::EndAndBegin(const BlobFrame& blobs, const std::vector<Observa
 std::vector<Path> FlockTracker::RecentPaths(int least) const {
   std::vector<Path> paths;
   for (const Animal& animal : animals_) {
-    const std::vector<TrackPoint>& all = animal.record.sightings;
+    const std::vector<TrackPoint>& all = animal.newest;
     std::size_t first = all.size();
     while (first > 0 && all.size() - first < kPathFrames && !all[first - 1].shared &&
            !all[first - 1].edges.any() &&
@@ -237,7 +257,7 @@ std::vector<TrackRecord> FlockTracker::Finish() {
   animals_.clear();
   std::stable_sort(finished_.begin(), finished_.end(),
                    [](const TrackRecord& a, const TrackRecord& b) {
-                     return a.sightings.front().frame < b.sightings.front().frame;
+                     return a.sightings.first_frame() < b.sightings.first_frame();
                    });
   return std::move(finished_);
 }

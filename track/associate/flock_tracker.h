@@ -10,14 +10,15 @@
 #ifndef FLOCKLIFT_TRACK_ASSOCIATE_FLOCK_TRACKER_H_
 #define FLOCKLIFT_TRACK_ASSOCIATE_FLOCK_TRACKER_H_
 
+#include <cstddef>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "simulate/core/options.h"
 #include "simulate/core/state_archive.h"
 #include "track/associate/doubt.h"
 #include "track/associate/share_blob.h"
+#include "track/associate/sightings.h"
 #include "track/detect/blob.h"
 #include "track/predict/motion_filter.h"
 #include "track/predict/motion_noise.h"
@@ -45,34 +46,21 @@ void Describe(Visitor& visit, AssociationOptions& o) {
   visit("confirm-frames", o.confirm_frames, {.low = 1, .high = 1000}, "frames", "see confirm-hits");
 }
 
-// An animal as it was seen in one frame.
-struct TrackPoint {
-  int frame = 0;
-  Vec2d position;       // [px]
-  double variance = 1;  // per axis [px^2]
-  double agility = 1;   // factor on the process noise up to this frame
-  Box box;              // of the blob; of an animal like it where the blob is shared [px]
-  Edges edges = {};     // of the picture that the blob touches
-  Shape shape = {};
-  bool shared = false;          // the blob held others too,
-  bool hidden = false;          // and could not be told from them
-  int blob = -1;                // its number in the frame's blobs
-  double given_confidence = 1;  // of a row that somebody else made
-};
-
-// One animal's sightings by increasing frame.
+// An animal, as far as it was followed.
 struct TrackRecord {
   double size = 1;  // usual, square root of area [px]
   double mass = 0;  // usual
-  std::vector<TrackPoint> sightings;
+  Sightings sightings;
   std::vector<Doubt> doubts;
   Id given_id = kNoId;  // of a track that somebody else made: its rows stay as they are
 };
 
 class FlockTracker {
  public:
+  // `file`, if any, must outlive the tracker and its records: there go all sightings but each
+  // animal's newest.
   FlockTracker(const AssociationOptions& options, const MotionNoise& noise, double image_width,
-               double image_height);
+               double image_height, SightingFile* file = nullptr);
 
   // Frames by increasing number; those left out count as missed.
   void Step(const BlobFrame& blobs);
@@ -85,29 +73,25 @@ class FlockTracker {
   std::vector<Path> RecentPaths(int least) const;
   void SetNoise(const MotionNoise& noise) { noise_ = noise; }
 
-  // The state, to go on from later: `state` as a whole each time, `log` with the sightings since
-  // the last Save, to be appended to those before.
-  void Save(StateWriter* state, StateWriter* log);
+  // The state, to go on from later, without what is in the file, which must be as it was then.
+  void Save(StateWriter* state) const;
   // Throws std::runtime_error where the two do not fit together.
-  void Load(StateReader* state, std::string_view log);
+  void Load(StateReader* state);
 
  private:
   static constexpr int kRemembered = 64;  // frames of an animal's own blobs, one by one
 
-  // Under which number a track's sightings stand in the log, and how many.
-  struct Logged {
-    std::uint64_t number = 0, sightings = 0;
-  };
   struct Animal {
+    std::uint64_t number = 0;  // from 1 on
     MotionFilter motion;
     Moments moments;
     TrackRecord record;
+    std::vector<TrackPoint> newest;  // sightings, after those of the record
     int hits = 0, missed = 0, age = 0;
     int hidden = 0;                        // frames in a row
     int first_alone = 0, last_alone = -1;  // frames in which it had a whole blob of its own
     std::uint64_t alone = 0;               // bit k: so it had k frames ago
     bool confirmed = false;
-    Logged logged = {};
   };
   // A blob, or one animal's share of a blob.
   struct Observation {
@@ -128,6 +112,7 @@ class FlockTracker {
   void UpdateAll(const BlobFrame& blobs, const std::vector<Observation>& observations,
                  const std::vector<int>& taken);
   void WaitIfHidden(std::vector<int>* inside) const;
+  void PutAside(std::size_t count, Animal* animal);
   void End(Animal* animal);
   static void NoteAlone(int frame, Animal* animal);
   void Sight(const BlobFrame& blobs, const Observation& observation, Animal* animal);
@@ -142,8 +127,9 @@ class FlockTracker {
   bool started_ = false;
   std::vector<Animal> animals_;
   std::vector<TrackRecord> finished_;
-  std::vector<Logged> finished_logged_;  // one each
-  std::uint64_t begun_ = 0;              // animals
+  std::vector<std::uint64_t> finished_numbers_;  // one each
+  std::uint64_t begun_ = 0;                      // animals
+  SightingFile* file_;
 };
 
 }  // namespace flocklift

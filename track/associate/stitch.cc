@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
+#include <utility>
 
 #include "track/associate/assignment.h"
 #include "track/associate/join_cost.h"
@@ -24,10 +24,8 @@ struct Ends {
 };
 
 Ends EndsOf(const TrackRecord& track, const MotionNoise& noise) {
-  const std::span<const TrackPoint> all(track.sightings);
-  const std::size_t some = std::min(all.size(), kEndSightings);
-  return {StateAtFirst(all.first(some), track.size, noise),
-          StateAtLast(all.last(some), track.size, noise)};
+  return {StateAtFirst(track.sightings.First(kEndSightings), track.size, noise),
+          StateAtLast(track.sightings.Last(kEndSightings), track.size, noise)};
 }
 
 double ChiSquare4Quantile(double probability) {
@@ -52,7 +50,7 @@ std::vector<Candidate> CandidatesOf(const StitchOptions& options, const MotionNo
   std::vector<TrackEnd> beginnings;
   double largest = 0, most_pp = 0, most_vv = 0;
   for (std::size_t k = 0; k < tracks.size(); ++k) {
-    beginnings.push_back({tracks[k].sightings.front().frame, ends[k].first});
+    beginnings.push_back({tracks[k].sightings.first_frame(), ends[k].first});
     largest = std::max(largest, tracks[k].size);
     most_pp = std::max(most_pp, ends[k].first.pp);
     most_vv = std::max(most_vv, ends[k].first.vv);
@@ -60,7 +58,7 @@ std::vector<Candidate> CandidatesOf(const StitchOptions& options, const MotionNo
   const Successors successors(beginnings, noise.speed_sd);
   std::vector<Candidate> candidates;
   for (std::size_t a = 0; a < tracks.size(); ++a) {
-    const TrackEnd end{tracks[a].sightings.back().frame, ends[a].last};
+    const TrackEnd end{tracks[a].sightings.last_frame(), ends[a].last};
     // Neither position nor velocity can be farther than the gate on both together.
     const double most_q = noise.ProcessVariance(0.5 * (tracks[a].size + largest));
     const auto ahead = [&](int gap) {
@@ -118,10 +116,10 @@ std::vector<TrackRecord> Stitch(const StitchOptions& options, const MotionNoise&
   if (count < 2 || options.max_gap == 0) return tracks;
 
   std::vector<Ends> ends;
-  int first_frame = tracks[0].sightings.front().frame, last_frame = first_frame;
+  int first_frame = tracks[0].sightings.first_frame(), last_frame = first_frame;
   for (const TrackRecord& track : tracks) {
     ends.push_back(EndsOf(track, noise));
-    last_frame = std::max(last_frame, track.sightings.back().frame);
+    last_frame = std::max(last_frame, track.sightings.last_frame());
   }
   const double beginnings = count / (image_width * image_height * (last_frame - first_frame + 1.0) *
                                      2 * std::numbers::pi * noise.speed_sd * noise.speed_sd);
@@ -131,7 +129,7 @@ std::vector<TrackRecord> Stitch(const StitchOptions& options, const MotionNoise&
   std::vector<int> by_first(count);
   for (int k = 0; k < count; ++k) by_first[k] = k;
   std::stable_sort(by_first.begin(), by_first.end(), [&tracks](int a, int b) {
-    return tracks[a].sightings.front().frame < tracks[b].sightings.front().frame;
+    return tracks[a].sightings.first_frame() < tracks[b].sightings.first_frame();
   });
   const std::vector<Candidate> candidates = CandidatesOf(options, noise, gate, tracks, ends);
   const std::vector<int> next =
@@ -147,8 +145,8 @@ std::vector<TrackRecord> Stitch(const StitchOptions& options, const MotionNoise&
     if (continued[k]) continue;
     TrackRecord track = std::move(tracks[k]);
     for (int a = k, b = next[k]; b >= 0; a = b, b = next[b]) {
-      const TrackPoint& before = track.sightings.back();
-      track.doubts.push_back({DoubtKind::kJoin, before.frame, tracks[b].sightings.front().frame,
+      const TrackPoint before = track.sightings.Last(1).front();
+      track.doubts.push_back({DoubtKind::kJoin, before.frame, tracks[b].sightings.first_frame(),
                               before.position, chances[a]});
       track.doubts.insert(track.doubts.end(), tracks[b].doubts.begin(), tracks[b].doubts.end());
       const double a_count = static_cast<double>(track.sightings.size());
@@ -156,8 +154,7 @@ std::vector<TrackRecord> Stitch(const StitchOptions& options, const MotionNoise&
       const double w = b_count / (a_count + b_count);
       track.size *= std::pow(tracks[b].size / track.size, w);
       track.mass *= std::pow(tracks[b].mass / track.mass, w);
-      track.sightings.insert(track.sightings.end(), tracks[b].sightings.begin(),
-                             tracks[b].sightings.end());
+      track.sightings.Append(std::move(tracks[b].sightings));
       ++*joins;
     }
     joined.push_back(std::move(track));

@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The part of the flock tracker that saves and restores its state. The log is a list of pieces:
-// a track's number, how many sightings follow, these. A track that ended may have fewer sightings
-// than the log holds of it: the last ones were taken back.
+// The part of the flock tracker that saves and restores its state.
 
-#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -13,65 +10,27 @@
 #include "track/associate/flock_tracker.h"
 
 namespace flocklift {
-namespace {
 
-using Sightings = std::vector<TrackPoint>;
-
-void AppendPiece(std::uint64_t number, const Sightings& sightings, std::uint64_t* logged,
-                 StateWriter* log) {
-  if (*logged >= sightings.size()) return;
-  log->Put(number);
-  log->Put(Sightings(sightings.begin() + static_cast<std::ptrdiff_t>(*logged), sightings.end()));
-  *logged = sightings.size();
-}
-
-std::map<std::uint64_t, Sightings> ReadLog(std::string_view bytes) {
-  std::map<std::uint64_t, Sightings> tracks;
-  for (StateReader log(bytes); !log.AtEnd();) {
-    std::uint64_t number = 0, count = 0;
-    log.Take(&number);
-    log.Take(&count);
-    Sightings& sightings = tracks[number];
-    for (std::uint64_t k = 0; k < count; ++k) {
-      TrackPoint sighting;
-      log.Take(&sighting);
-      sightings.push_back(sighting);
-    }
-  }
-  return tracks;
-}
-
-Sightings FirstOf(Sightings* logged, std::uint64_t count) {
-  if (logged->size() < count) throw std::runtime_error("the saved sightings end early");
-  logged->resize(count);
-  logged->shrink_to_fit();
-  return std::move(*logged);
-}
-
-}  // namespace
-
-void FlockTracker::Save(StateWriter* state, StateWriter* log) {
+void FlockTracker::Save(StateWriter* state) const {
   state->Put(noise_);
   state->Put(strays_);
   state->Put(last_frame_);
   state->Put(started_);
   state->Put(begun_);
+  state->Put(static_cast<std::uint64_t>(file_->size()));
   state->Put(static_cast<std::uint64_t>(finished_.size()));
   for (std::size_t k = 0; k < finished_.size(); ++k) {
-    const TrackRecord& record = finished_[k];
-    Logged& logged = finished_logged_[k];
-    AppendPiece(logged.number, record.sightings, &logged.sightings, log);
-    state->Put(logged.number);
-    state->Put(static_cast<std::uint64_t>(record.sightings.size()));
-    state->Put(record.size);
-    state->Put(record.mass);
+    state->Put(finished_numbers_[k]);
+    state->Put(finished_[k].size);
+    state->Put(finished_[k].mass);
   }
   state->Put(static_cast<std::uint64_t>(animals_.size()));
-  for (Animal& animal : animals_) {
-    AppendPiece(animal.logged.number, animal.record.sightings, &animal.logged.sightings, log);
-    state->Put(animal.logged);
+  for (const Animal& animal : animals_) {
+    state->Put(animal.number);
     state->Put(animal.record.size);
     state->Put(animal.record.mass);
+    state->Put(static_cast<std::uint64_t>(animal.newest.size()));
+    for (const TrackPoint& sighting : animal.newest) state->Put(sighting);
     state->Put(animal.motion);
     state->Put(animal.moments);
     for (const int value : {animal.hits, animal.missed, animal.age, animal.hidden,
@@ -83,32 +42,39 @@ void FlockTracker::Save(StateWriter* state, StateWriter* log) {
   }
 }
 
-void FlockTracker::Load(StateReader* state, std::string_view log) {
-  std::map<std::uint64_t, Sightings> logged = ReadLog(log);
+void FlockTracker::Load(StateReader* state) {
   state->Take(&noise_);
   state->Take(&strays_);
   state->Take(&last_frame_);
   state->Take(&started_);
   state->Take(&begun_);
-  std::uint64_t count = 0;
+  std::uint64_t bytes = 0, count = 0;
+  state->Take(&bytes);
+  std::map<std::uint64_t, Sightings> stored;
+  file_->GoOn(bytes, [&](std::uint64_t animal, std::uint64_t at, std::size_t rows) {
+    stored[animal].AppendStored(*file_, at, rows);
+  });
   state->Take(&count);
   finished_.assign(count, {});
-  finished_logged_.assign(count, {});
+  finished_numbers_.assign(count, 0);
   for (std::size_t k = 0; k < count; ++k) {
-    std::uint64_t sightings = 0;
-    state->Take(&finished_logged_[k].number);
-    state->Take(&sightings);
+    state->Take(&finished_numbers_[k]);
     state->Take(&finished_[k].size);
     state->Take(&finished_[k].mass);
-    finished_[k].sightings = FirstOf(&logged[finished_logged_[k].number], sightings);
-    finished_logged_[k].sightings = sightings;
+    finished_[k].sightings = std::move(stored[finished_numbers_[k]]);
+    if (finished_[k].sightings.empty()) throw std::runtime_error("the saved sightings end early");
   }
   state->Take(&count);
   animals_.assign(count, {});
   for (Animal& animal : animals_) {
-    state->Take(&animal.logged);
+    state->Take(&animal.number);
     state->Take(&animal.record.size);
     state->Take(&animal.record.mass);
+    animal.record.sightings = std::move(stored[animal.number]);
+    std::uint64_t newest = 0;
+    for (state->Take(&newest); newest > 0; --newest) {
+      state->Take(&animal.newest.emplace_back());
+    }
     state->Take(&animal.motion);
     state->Take(&animal.moments);
     for (int* value : {&animal.hits, &animal.missed, &animal.age, &animal.hidden,
@@ -117,7 +83,6 @@ void FlockTracker::Load(StateReader* state, std::string_view log) {
     }
     state->Take(&animal.alone);
     state->Take(&animal.confirmed);
-    animal.record.sightings = FirstOf(&logged[animal.logged.number], animal.logged.sightings);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "simulate/core/animal_rows.h"
 #include "track/associate/join_cost.h"
 
 namespace flocklift {
@@ -30,28 +31,49 @@ struct Encounter {
   int first = 0, last = 0;
 };
 
+using Sharer = std::pair<int, int>;  // blob, track
+
+// As ForEachByFrame wants an animal.
+struct Told {
+  Id id = 0;  // the track's place in the list
+  SightingReader sightings;
+};
+
 std::vector<Encounter> FindEncounters(const std::vector<TrackRecord>& tracks) {
-  std::map<std::pair<int, int>, std::vector<int>> in_blob;  // (frame, blob) to tracks
-  for (std::size_t t = 0; t < tracks.size(); ++t) {
-    for (const TrackPoint& s : tracks[t].sightings) {
-      if (s.shared) in_blob[{s.frame, s.blob}].push_back(static_cast<int>(t));
-    }
-  }
   std::map<std::pair<int, int>, Encounter> open;
   std::vector<Encounter> encounters;
-  for (const auto& [where, who] : in_blob) {
-    for (std::size_t j = 1; j < who.size(); ++j) {
-      for (std::size_t i = 0; i < j; ++i) {
-        Encounter& e = open[{who[i], who[j]}];
-        if (e.last > 0 && where.first - e.last <= kBetween) {
-          e.last = where.first;
+  int now = 0;
+  std::vector<Sharer> sharers;  // in the frame
+  const auto meet = [&] {
+    std::sort(sharers.begin(), sharers.end());
+    for (std::size_t j = 1; j < sharers.size(); ++j) {
+      std::size_t i = j;
+      while (i > 0 && sharers[i - 1].first == sharers[j].first) --i;
+      for (; i < j; ++i) {
+        const int a = sharers[i].second, b = sharers[j].second;
+        Encounter& e = open[{a, b}];
+        if (e.last > 0 && now - e.last <= kBetween) {
+          e.last = now;
           continue;
         }
         if (e.last > 0) encounters.push_back(e);
-        e = {who[i], who[j], where.first, where.first};
+        e = {a, b, now, now};
       }
     }
+    sharers.clear();
+  };
+  std::vector<Told> told;
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    told.push_back({static_cast<Id>(t), SightingReader(tracks[t].sightings)});
   }
+  internal::ForEachByFrame(
+      told, [](const Told& one) -> const SightingReader& { return one.sightings; },
+      [&](Id track, const TrackPoint& s) {
+        if (s.frame != now) meet();
+        now = s.frame;
+        if (s.shared) sharers.emplace_back(s.blob, static_cast<int>(track));
+      });
+  meet();
   for (const auto& [pair, e] : open) encounters.push_back(e);
   std::stable_sort(encounters.begin(), encounters.end(),
                    [](const Encounter& x, const Encounter& y) { return x.last < y.last; });
@@ -60,7 +82,7 @@ std::vector<Encounter> FindEncounters(const std::vector<TrackRecord>& tracks) {
 
 // A track's sightings just before and after an encounter.
 struct Side {
-  std::span<const TrackPoint> before, after;
+  std::vector<TrackPoint> before, after;
   double log_area_before = 0, log_area_after = 0;
   MotionState end, begin;
 
@@ -74,15 +96,9 @@ double MeanLogArea(std::span<const TrackPoint> sightings) {
 }
 
 Side Look(const TrackRecord& track, const Encounter& e, const MotionNoise& noise) {
-  const auto& s = track.sightings;
-  const auto earlier = [](const TrackPoint& p, int frame) { return p.frame < frame; };
-  const auto begin = std::lower_bound(s.begin(), s.end(), e.first, earlier);
-  const auto end = std::lower_bound(s.begin(), s.end(), e.last + 1, earlier);
-  const std::size_t before = std::min<std::size_t>(kLook, begin - s.begin());
-  const std::size_t after = std::min<std::size_t>(kLook, s.end() - end);
   Side side;
-  side.before = std::span(s).subspan(begin - s.begin() - before, before);
-  side.after = std::span(s).subspan(end - s.begin(), after);
+  side.before = track.sightings.Before(e.first, kLook);
+  side.after = track.sightings.From(e.last + 1, kLook);
   if (!side.IsEnough()) return side;
   side.log_area_before = MeanLogArea(side.before);
   side.log_area_after = MeanLogArea(side.after);
@@ -99,16 +115,9 @@ double Cost(const Side& from, const Side& to, double q) {
 
 // Exchanges what two tracks have from `frame` on.
 void ExchangeTails(int frame, TrackRecord* a, TrackRecord* b) {
-  const auto cut = [frame](std::vector<TrackPoint>* s) {
-    const auto from = std::find_if(s->begin(), s->end(),
-                                   [frame](const TrackPoint& p) { return p.frame >= frame; });
-    std::vector<TrackPoint> tail(from, s->end());
-    s->erase(from, s->end());
-    return tail;
-  };
-  const std::vector<TrackPoint> tail_a = cut(&a->sightings), tail_b = cut(&b->sightings);
-  a->sightings.insert(a->sightings.end(), tail_b.begin(), tail_b.end());
-  b->sightings.insert(b->sightings.end(), tail_a.begin(), tail_a.end());
+  Sightings tail_a = a->sightings.CutFrom(frame), tail_b = b->sightings.CutFrom(frame);
+  a->sightings.Append(std::move(tail_b));
+  b->sightings.Append(std::move(tail_a));
   // A doubt is about the frames that it names.
   const auto is_later = [frame](const Doubt& d) { return d.first_frame >= frame; };
   std::vector<Doubt> doubts_a, doubts_b;
@@ -122,9 +131,9 @@ void ExchangeTails(int frame, TrackRecord* a, TrackRecord* b) {
 int ClosestFrame(const TrackRecord& a, const TrackRecord& b, const Encounter& e) {
   int closest = e.last;
   double least = 1e300;
-  for (const TrackPoint& p : a.sightings) {
-    if (p.frame < e.first || p.frame > e.last) continue;
-    for (const TrackPoint& q : b.sightings) {
+  const std::vector<TrackPoint> of_b = b.sightings.Between(e.first, e.last);
+  for (const TrackPoint& p : a.sightings.Between(e.first, e.last)) {
+    for (const TrackPoint& q : of_b) {
       if (q.frame != p.frame) continue;
       const double d = std::hypot(p.position.x - q.position.x, p.position.y - q.position.y);
       if (d < least) {
@@ -137,9 +146,8 @@ int ClosestFrame(const TrackRecord& a, const TrackRecord& b, const Encounter& e)
 }
 
 bool WasHidden(const TrackRecord& track, const Encounter& e) {
-  return std::any_of(track.sightings.begin(), track.sightings.end(), [&e](const TrackPoint& p) {
-    return p.hidden && p.frame >= e.first && p.frame <= e.last;
-  });
+  const std::vector<TrackPoint> then = track.sightings.Between(e.first, e.last);
+  return std::any_of(then.begin(), then.end(), [](const TrackPoint& p) { return p.hidden; });
 }
 
 // Both tracks are in doubt when the other way round is nearly as likely.

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -47,13 +48,22 @@ constexpr Vec2d kNowhere{std::numeric_limits<double>::quiet_NaN(), 0};
 
 double Distance(const Vec2d& a, const Vec2d& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
+void ExpectSame(const std::vector<TrackPoint>& a, const std::vector<TrackPoint>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t t = 0; t < a.size(); ++t) {
+    EXPECT_EQ(a[t].frame, b[t].frame);
+    EXPECT_EQ(a[t].position, b[t].position);
+    EXPECT_EQ(a[t].shared, b[t].shared);
+  }
+}
+
 TEST(FlockTrackerTest, FollowsOneFromItsFirstFrame) {
   const auto path = [](int t) { return Vec2d{50 + 4.0 * t, 100 + 1.5 * t}; };
   const auto tracks = Track(Film(40, {path}));
   ASSERT_EQ(tracks.size(), 1u);
   ASSERT_EQ(tracks[0].sightings.size(), 40u);
-  EXPECT_EQ(tracks[0].sightings.front().frame, 1);
-  EXPECT_EQ(tracks[0].sightings.back().frame, 40);
+  EXPECT_EQ(tracks[0].sightings.first_frame(), 1);
+  EXPECT_EQ(tracks[0].sightings.last_frame(), 40);
 }
 
 TEST(FlockTrackerTest, CrossingAnimalsKeepTheirIdentity) {
@@ -67,9 +77,9 @@ TEST(FlockTrackerTest, CrossingAnimalsKeepTheirIdentity) {
   const auto tracks = Track(frames);
   ASSERT_EQ(tracks.size(), 2u);
   for (const TrackRecord& track : tracks) {
-    const bool is_a = Distance(track.sightings.front().position, a(1)) < 2;
+    const bool is_a = Distance(track.sightings.First(1).front().position, a(1)) < 2;
     EXPECT_EQ(track.sightings.size(), 50u);
-    for (const TrackPoint& s : track.sightings) {
+    for (const TrackPoint& s : track.sightings.All()) {
       EXPECT_LT(Distance(s.position, is_a ? a(s.frame) : b(s.frame)), 3.0) << s.frame;
     }
   }
@@ -89,7 +99,7 @@ TEST(FlockTrackerTest, MergedBlobIsSharedForAsLongAsItLasts) {
   for (const TrackRecord& track : tracks) {
     EXPECT_GE(track.sightings.size(), 43u);
     int shared = 0;
-    for (const TrackPoint& s : track.sightings) shared += s.shared ? 1 : 0;
+    for (const TrackPoint& s : track.sightings.All()) shared += s.shared ? 1 : 0;
     EXPECT_GE(shared, 20);
   }
 }
@@ -147,9 +157,9 @@ TEST(FlockTrackerTest, BirthsAndDeathsAtAnyTime) {
   const auto b = [](int t) { return t >= 30 ? Vec2d{600 - 4.0 * t, 300} : kNowhere; };
   const auto tracks = Track(Film(60, {a, b}));
   ASSERT_EQ(tracks.size(), 2u);
-  EXPECT_EQ(tracks[0].sightings.back().frame, 20);
-  EXPECT_EQ(tracks[1].sightings.front().frame, 30);
-  EXPECT_EQ(tracks[1].sightings.back().frame, 60);
+  EXPECT_EQ(tracks[0].sightings.last_frame(), 20);
+  EXPECT_EQ(tracks[1].sightings.first_frame(), 30);
+  EXPECT_EQ(tracks[1].sightings.last_frame(), 60);
 }
 
 TEST(FlockTrackerTest, FlickersAreNoTracks) {
@@ -181,7 +191,7 @@ TEST(FlockTrackerTest, FollowsACrowd) {
     if (track.sightings.size() < 30) continue;
     for (const auto& path : paths) {
       int near = 0;
-      for (const TrackPoint& s : track.sightings) {
+      for (const TrackPoint& s : track.sightings.All()) {
         near += Distance(s.position, path(s.frame)) < 1 ? 1 : 0;
       }
       if (near == static_cast<int>(track.sightings.size())) {
@@ -203,52 +213,62 @@ TEST(FlockTrackerTest, SameInputSameTracks) {
   const auto one = Track(frames), two = Track(frames);
   ASSERT_EQ(one.size(), two.size());
   for (std::size_t k = 0; k < one.size(); ++k) {
-    ASSERT_EQ(one[k].sightings.size(), two[k].sightings.size());
-    for (std::size_t t = 0; t < one[k].sightings.size(); ++t) {
-      EXPECT_EQ(one[k].sightings[t].position, two[k].sightings[t].position);
-    }
+    ExpectSame(one[k].sightings.All(), two[k].sightings.All());
   }
 }
 
-// Animals that end, begin, and share a blob: the state is saved twice and restored once.
-TEST(FlockTrackerTest, GoesOnFromASavedState) {
+// Animals that end, begin, and share a blob, for longer than memory holds their sightings: the
+// state is saved twice and restored once, as that of another run.
+TEST(FlockTrackerTest, GoesOnFromASavedStateAndAFile) {
+  constexpr int kFrames = 420, kSaved = 310;
   const auto a = [](int t) { return t > 30 ? kNowhere : Vec2d{100 + 5.0 * t, 200 + 2.0 * t}; };
-  const auto b = [](int t) { return Vec2d{100 + 5.0 * t, 300 - 2.0 * t}; };
-  const auto c = [](int t) { return t < 25 ? kNowhere : Vec2d{500 - 3.0 * t, 100}; };
-  const std::vector<BlobFrame> frames = Film(60, {a, b, c});
-  FlockTracker whole({}, kNoise, kWidth, kHeight), first({}, kNoise, kWidth, kHeight);
-  std::string state, log;
-  for (const BlobFrame& frame : frames) {
-    whole.Step(frame);
-    if (frame.frame > 46) continue;
-    first.Step(frame);
-    if (frame.frame != 20 && frame.frame != 45) continue;
-    StateWriter state_out, log_out;
-    first.Save(&state_out, &log_out);
-    state = state_out.bytes();
-    log += log_out.bytes();
+  const auto b = [](int t) {
+    return Vec2d{320 + 200 * std::sin(0.03 * t), 240 + 100 * std::cos(0.03 * t)};
+  };
+  const auto c = [](int t) {
+    return t < 25 ? kNowhere
+                  : Vec2d{320 + 200 * std::sin(0.02 * t), 240 - 100 * std::cos(0.02 * t)};
+  };
+  const std::vector<BlobFrame> frames = Film(kFrames, {a, b, c});
+  const auto folder = std::filesystem::path(testing::TempDir()) / "flock_tracker_test";
+  std::filesystem::remove_all(folder);
+  FlockTracker whole({}, kNoise, kWidth, kHeight);
+  std::string state;
+  {
+    SightingFile file(folder / "sightings");
+    FlockTracker first({}, kNoise, kWidth, kHeight, &file);
+    for (const BlobFrame& frame : frames) {
+      whole.Step(frame);
+      if (frame.frame > kSaved + 40) continue;
+      first.Step(frame);
+      if (frame.frame != 20 && frame.frame != kSaved) continue;
+      StateWriter out;
+      first.Save(&out);
+      state = out.bytes();
+    }
+    EXPECT_GT(file.size(), 2 * 200 * sizeof(TrackPoint));
   }
-  FlockTracker second({}, MotionNoise{}, kWidth, kHeight);
+  SightingFile file(folder / "sightings");
+  FlockTracker second({}, MotionNoise{}, kWidth, kHeight, &file);
   StateReader in(state);
-  second.Load(&in, log);
+  second.Load(&in);
   EXPECT_TRUE(in.AtEnd());
   for (const BlobFrame& frame : frames) {
-    if (frame.frame > 45) second.Step(frame);
+    if (frame.frame > kSaved) second.Step(frame);
   }
   const auto wanted = whole.Finish(), is = second.Finish();
   ASSERT_EQ(is.size(), wanted.size());
+  ASSERT_GE(is.size(), 3u);
   for (std::size_t k = 0; k < is.size(); ++k) {
     EXPECT_EQ(is[k].size, wanted[k].size);
     EXPECT_EQ(is[k].mass, wanted[k].mass);
-    ASSERT_EQ(is[k].sightings.size(), wanted[k].sightings.size());
-    for (std::size_t t = 0; t < is[k].sightings.size(); ++t) {
-      EXPECT_EQ(is[k].sightings[t].frame, wanted[k].sightings[t].frame);
-      EXPECT_EQ(is[k].sightings[t].position, wanted[k].sightings[t].position);
-      EXPECT_EQ(is[k].sightings[t].shared, wanted[k].sightings[t].shared);
-    }
+    ExpectSame(is[k].sightings.All(), wanted[k].sightings.All());
   }
+  SightingFile none(folder / "none");
+  FlockTracker third({}, MotionNoise{}, kWidth, kHeight, &none);
   StateReader again(state);
-  EXPECT_THROW(second.Load(&again, ""), std::runtime_error);
+  EXPECT_THROW(third.Load(&again), std::runtime_error);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

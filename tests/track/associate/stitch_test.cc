@@ -13,16 +13,16 @@ namespace {
 const MotionNoise kNoise{.acceleration = 0.02, .measurement = 0.05, .speed_sd = 5};
 
 TrackRecord Straight(const Vec2d& start, const Vec2d& velocity, int first, int last) {
-  TrackRecord track{.size = 5, .mass = 1000, .sightings = {}, .doubts = {}};
+  std::vector<TrackPoint> sightings;
   for (int frame = first; frame <= last; ++frame) {
     Rng rng(3, static_cast<std::uint64_t>(frame));
-    track.sightings.push_back({.frame = frame,
-                               .position = {start.x + velocity.x * frame + 0.1 * rng.Normal(),
-                                            start.y + velocity.y * frame + 0.1 * rng.Normal()},
-                               .variance = 0.08,
-                               .box = Box::Around({0, 0}, 9, 7)});
+    sightings.push_back({.frame = frame,
+                         .position = {start.x + velocity.x * frame + 0.1 * rng.Normal(),
+                                      start.y + velocity.y * frame + 0.1 * rng.Normal()},
+                         .variance = 0.08,
+                         .box = Box::Around({0, 0}, 9, 7)});
   }
-  return track;
+  return {.size = 5, .mass = 1000, .sightings = Sightings(std::move(sightings)), .doubts = {}};
 }
 
 std::vector<TrackRecord> StitchThem(std::vector<TrackRecord> tracks, int* joins,
@@ -71,8 +71,9 @@ TEST(StitchTest, TwoGapsThatCrossAreTold) {
   EXPECT_EQ(joins, 2);
   ASSERT_EQ(tracks.size(), 2u);
   for (const TrackRecord& track : tracks) {
-    const bool down = track.sightings[10].position.y > track.sightings[0].position.y;
-    const auto& last = track.sightings.back().position;
+    const std::vector<TrackPoint> sightings = track.sightings.All();
+    const bool down = sightings[10].position.y > sightings[0].position.y;
+    const auto& last = sightings.back().position;
     EXPECT_NEAR(last.y, down ? 150 : 100, 2);
   }
 }
@@ -85,7 +86,7 @@ TEST(StitchTest, ChainsOfThree) {
                  &joins);
   EXPECT_EQ(joins, 2);
   ASSERT_EQ(tracks.size(), 1u);
-  EXPECT_EQ(tracks[0].sightings.back().frame, 70);
+  EXPECT_EQ(tracks[0].sightings.last_frame(), 70);
 }
 
 }  // namespace

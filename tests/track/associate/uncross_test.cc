@@ -18,31 +18,33 @@ const MotionNoise kNoise{.acceleration = 0.02, .measurement = 0.05, .speed_sd = 
 
 // The track that follows `before` up to frame 20 and `after` from frame 21 on; frames 18 to 22 are
 // of one blob.
-TrackRecord Track(const std::function<Vec2d(int)>& before, const std::function<Vec2d(int)>& after) {
-  TrackRecord track{.size = 5, .mass = 1000, .sightings = {}, .doubts = {}};
+TrackRecord Track(const std::function<Vec2d(int)>& before, const std::function<Vec2d(int)>& after,
+                  bool meets = true) {
+  std::vector<TrackPoint> sightings;
   for (int frame = 1; frame <= 40; ++frame) {
     Rng rng(3, static_cast<std::uint64_t>(frame));
     Vec2d p = frame <= 20 ? before(frame) : after(frame);
     p = {p.x + 0.1 * rng.Normal(), p.y + 0.1 * rng.Normal()};
-    const bool shared = frame >= 18 && frame <= 22;
-    track.sightings.push_back({.frame = frame,
-                               .position = p,
-                               .variance = 0.08,
-                               .box = Box::Around(p, 9, 7),
-                               .shape = {8, 6, 0, 25},
-                               .shared = shared,
-                               .hidden = shared,
-                               .blob = shared ? 3 : -1});
+    const bool shared = meets && frame >= 18 && frame <= 22;
+    sightings.push_back({.frame = frame,
+                         .position = p,
+                         .variance = 0.08,
+                         .box = Box::Around(p, 9, 7),
+                         .shape = {8, 6, 0, 25},
+                         .shared = shared,
+                         .hidden = shared,
+                         .blob = shared ? 3 : -1});
   }
-  return track;
+  return {.size = 5, .mass = 1000, .sightings = Sightings(std::move(sightings)), .doubts = {}};
 }
 
 Vec2d Down(int t) { return {100 + 4.0 * t, 200 + 1.0 * t}; }
 Vec2d Up(int t) { return {100 + 4.0 * t, 240 - 1.0 * t}; }
 
 bool IsStraight(const TrackRecord& track) {
-  const double before = track.sightings[10].position.y - track.sightings[0].position.y;
-  const double after = track.sightings[39].position.y - track.sightings[29].position.y;
+  const std::vector<TrackPoint> all = track.sightings.All();
+  const double before = all[10].position.y - all[0].position.y;
+  const double after = all[39].position.y - all[29].position.y;
   return before * after > 0;
 }
 
@@ -51,8 +53,9 @@ TEST(UncrossTest, UndoesAnExchange) {
   EXPECT_EQ(Uncross(kNoise, &tracks), 1);
   EXPECT_TRUE(IsStraight(tracks[0]));
   EXPECT_TRUE(IsStraight(tracks[1]));
-  EXPECT_EQ(tracks[0].sightings.size(), 40u);
-  for (int k = 0; k < 40; ++k) EXPECT_EQ(tracks[0].sightings[k].frame, k + 1);
+  const std::vector<TrackPoint> all = tracks[0].sightings.All();
+  ASSERT_EQ(all.size(), 40u);
+  for (int k = 0; k < 40; ++k) EXPECT_EQ(all[k].frame, k + 1);
 }
 
 TEST(UncrossTest, LeavesWhatIsRight) {
@@ -62,10 +65,7 @@ TEST(UncrossTest, LeavesWhatIsRight) {
 }
 
 TEST(UncrossTest, TracksThatNeverMetAreNotAsked) {
-  std::vector<TrackRecord> tracks{Track(Down, Up), Track(Up, Down)};
-  for (TrackRecord& track : tracks) {
-    for (TrackPoint& s : track.sightings) s.shared = false;
-  }
+  std::vector<TrackRecord> tracks{Track(Down, Up, false), Track(Up, Down, false)};
   EXPECT_EQ(Uncross(kNoise, &tracks), 0);
 }
 
