@@ -19,7 +19,10 @@ namespace fs = std::filesystem;
 std::vector<TrackPoint> Rows(int first, int last) {
   std::vector<TrackPoint> rows;
   for (int frame = first; frame <= last; ++frame) {
-    if (frame % 3 != 0) rows.push_back({.frame = frame, .position = {1.0 * frame, -2.0 * frame}});
+    if (frame % 3 == 0) continue;
+    rows.emplace_back();
+    rows.back().frame = frame;
+    rows.back().position = {1.0 * frame, -2.0 * frame};
   }
   return rows;
 }
@@ -65,7 +68,8 @@ void ExpectList(const Sightings& sightings, const std::vector<TrackPoint>& list)
   EXPECT_EQ(reader.front().frame, list.front().frame);
   for (std::size_t k = 0; k < list.size(); ++k) {
     EXPECT_EQ(reader[k].frame, list[k].frame);
-    if (k + 1 < list.size()) EXPECT_EQ(reader[k + 1].frame, list[k + 1].frame);
+    if (k + 1 == list.size()) continue;
+    EXPECT_EQ(reader[k + 1].frame, list[k + 1].frame);
   }
   reader.Release();
 }
