@@ -33,6 +33,8 @@ void Linker::Add(BlobFrame frame) {
 
 void Linker::Start() {
   if (options_.min_travel > 0) clutter_.Learn(first_);
+  asks_ = may_ask_ && clutter_.learned() > 0 && camera_.rests();
+  if (asks_) return;
   for (BlobFrame& frame : first_) clutter_.Drop(&frame);
   separability_ = MeasureSeparability(first_);
   separability_.is_enough = separability_.is_enough || !options_.decline;
@@ -80,6 +82,7 @@ void Linker::Load(StateReader* state) {
 
 void Linker::Finish(const TakeTracklet& take, TrackerReport* report) {
   Timed(&report->timings.finish_s, [&] {
+    may_ask_ = false;  // it is too late
     if (!tracker_ && !has_declined()) Start();
     report->separability = separability_;
     report->camera_moves = !camera_.rests();

@@ -30,6 +30,11 @@ class Linker {
   // Whether the first frames have shown that the animals cannot be told apart: nothing is linked.
   bool has_declined() const { return !separability_.is_enough; }
 
+  // Whether, when the first frames are there, something that stands still may be a reason to ask
+  // for all frames anew, without it. Then nothing was linked.
+  void set_may_ask(bool may_ask) { may_ask_ = may_ask; }
+  bool asks_for_second_look() const { return asks_; }
+
   // Whether there is a state to save: not while the first frames are kept.
   bool CanSave() const { return tracker_.has_value(); }
   // As FlockTracker's.
@@ -55,6 +60,7 @@ class Linker {
   std::optional<FlockTracker> tracker_;
   int steps_ = 0;
   SightingFile* file_;
+  bool may_ask_ = false, asks_ = false;
 };
 
 // What is left to do when all sightings are there: mend, stitch, finish.

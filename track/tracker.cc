@@ -15,6 +15,7 @@
 #include "simulate/core/check.h"
 #include "simulate/core/state_archive.h"
 #include "track/bounded_queue.h"
+#include "track/finder.h"
 #include "track/linker.h"
 #include "track/stopwatch.h"
 #include "track/track_checkpoint.h"
@@ -24,19 +25,17 @@ namespace flocklift {
 namespace {
 
 using internal::BoundedQueue;
+using internal::Finder;
+using internal::Found;
 using internal::Linker;
 using internal::Stopwatch;
 using internal::Timed;
 using internal::TrackCheckpoint;
 
-constexpr std::size_t kLearnImages = 24;  // at the start, for the detector
-constexpr std::size_t kLearnStride = 2;   // of these, every second one
-constexpr std::size_t kBatch = 8;         // frames that are looked at together
-constexpr std::size_t kQueued = 8;        // pictures between two threads
-constexpr std::size_t kFound = 96;        // frames' blobs, which are much less: as the linker looks
-                                          // at some seconds of them before it begins
-constexpr int kSaveStride = 50;           // frames at least from one that can be gone on from to
-                                          // the next
+constexpr std::size_t kBatch = 8;   // frames that are looked at together
+constexpr std::size_t kQueued = 8;  // pictures between two threads
+constexpr std::size_t kFound = 96;  // frames' blobs, which are much less: as the linker looks at
+                                    // some seconds of them before it begins
 
 // Pictures whose memory is used again.
 class SparePictures {
@@ -58,62 +57,6 @@ class SparePictures {
   std::vector<GrayImage> pictures_;
 };
 
-// What was found in a frame; in one of some frames, what the finder knows after it.
-struct Found {
-  BlobFrame blobs;
-  std::string state;
-};
-
-// Detector and camera motion, frame by frame.
-class Finder {
- public:
-  Finder(const TrackerOptions& options, bool is_saved, TrackerTimings* timings)
-      : detector(options.detect), is_saved_(is_saved), timings_(timings), camera_(options.camera) {}
-
-  void Learn(const std::vector<GrayImage>& images) {
-    std::vector<GrayImage> some;
-    for (std::size_t k = 0; k < images.size(); k += kLearnStride) some.push_back(images[k]);
-    Timed(&timings_->detect_s, [&] { detector.Learn(some, &pool_); });
-  }
-  std::vector<Found> Find(std::span<const GrayImage> images) {
-    std::vector<BlobFrame> blobs =
-        Timed(&timings_->detect_s, [&] { return detector.DetectAll(frame_ + 1, images, &pool_); });
-    std::vector<Found> all;
-    for (std::size_t k = 0; k < images.size(); ++k) {
-      ++frame_;
-      blobs[k].world_from_image =
-          Timed(&timings_->camera_s, [&] { return camera_.Next(images[k], blobs[k]); });
-      all.push_back({std::move(blobs[k]), {}});
-    }
-    if (is_saved_ && frame_ - saved_frame_ >= kSaveStride) all.back().state = Save();
-    return all;
-  }
-  void Load(StateReader* state) {
-    state->Take(&frame_);
-    saved_frame_ = frame_;
-    detector.Load(state);
-    camera_.Load(state);
-  }
-
-  Detector detector;
-
- private:
-  std::string Save() {
-    saved_frame_ = frame_;
-    StateWriter state;
-    state.Put(frame_);
-    detector.Save(&state);
-    camera_.Save(&state);
-    return state.bytes();
-  }
-
-  bool is_saved_;
-  TrackerTimings* timings_;
-  CameraMotion camera_;
-  ThreadPool pool_{0};
-  int frame_ = 0, saved_frame_ = 0;
-};
-
 // The next frames, until there are none or nobody wants them.
 void Decode(VideoSource* video, TrackerTimings* timings, SparePictures* spare,
             BoundedQueue<GrayImage>* images) {
@@ -128,7 +71,7 @@ void FindAll(bool has_learned, BoundedQueue<GrayImage>* images, SparePictures* s
              Finder* finder, BoundedQueue<Found>* found) {
   std::vector<GrayImage> first;
   if (!has_learned) {
-    while (first.size() < kLearnImages) {
+    while (first.size() < Finder::kLearnImages) {
       std::optional<GrayImage> image = images->Pop();
       if (!image) break;
       first.push_back(std::move(*image));
@@ -182,46 +125,33 @@ void Save(const std::string& finder_state, const TrackerReport& report, const Li
   checkpoint->Keep(report.frames, finder_state + state.bytes());
 }
 
-}  // namespace
-
-TrackerReport StreamTracks(const TrackerOptions& options, const std::filesystem::path& path,
-                           const TakeTracklet& take, const Progress& progress,
-                           std::optional<double> fps, const CheckpointPlace& place) {
-  CheckOptions(options);
-  const Stopwatch total;
-  VideoSource video(path);
-  const std::int64_t declared = video.frame_count().value_or(0);
-  TrackerReport report;
-  TrackerTimings timings;
-  const bool is_saved = !place.folder.empty();
-  TrackCheckpoint checkpoint(place, is_saved ? internal::FingerprintOf(options, path) : "");
-  Finder finder(options, is_saved, &timings);
-  Linker linker(options, video.width(), video.height(), checkpoint.sightings());
-  const std::optional<TrackCheckpoint::Saved> saved = checkpoint.Load();
-  if (saved) GoOn(*saved, &video, &finder, &linker, &report);
-  const std::int64_t frames_before = report.frames;
-
+// All frames through the threads, until the last one or the linker asks for a second look.
+void Track(bool has_learned, const Progress& progress, VideoSource* video, Finder* finder,
+           Linker* linker, TrackCheckpoint* checkpoint, TrackerReport* report) {
+  TrackerTimings* timings = &report->timings;
+  const std::int64_t declared = video->frame_count().value_or(0);
   SparePictures spare;
   BoundedQueue<GrayImage> images(kQueued);
   BoundedQueue<Found> all_found(kFound);
   std::exception_ptr decode_error, find_error, link_error;
   std::thread decoder = Run(
-      &decode_error, [&] { Decode(&video, &timings, &spare, &images); }, [&] { images.Close(); });
+      &decode_error, [&] { Decode(video, timings, &spare, &images); }, [&] { images.Close(); });
   std::thread find_thread = Run(
-      &find_error, [&] { FindAll(saved.has_value(), &images, &spare, &finder, &all_found); },
+      &find_error, [&] { FindAll(has_learned, &images, &spare, finder, &all_found); },
       [&] {
         images.Close();
         all_found.Close();
       });
   try {
     while (std::optional<Found> found = all_found.Pop()) {
-      ++report.frames;
-      report.detections += static_cast<std::int64_t>(found->blobs.blobs.size());
-      Timed(&timings.associate_s, [&] { linker.Add(std::move(found->blobs)); });
-      if (!found->state.empty() && linker.CanSave() && checkpoint.IsDue()) {
-        Save(found->state, report, linker, &checkpoint);
+      ++report->frames;
+      report->detections += static_cast<std::int64_t>(found->blobs.blobs.size());
+      Timed(&timings->associate_s, [&] { linker->Add(std::move(found->blobs)); });
+      if (linker->asks_for_second_look()) break;
+      if (!found->state.empty() && linker->CanSave() && checkpoint->IsDue()) {
+        Save(found->state, *report, *linker, checkpoint);
       }
-      Report(progress, report.frames, declared);
+      Report(progress, report->frames, declared);
     }
   } catch (...) {
     link_error = std::current_exception();
@@ -233,20 +163,51 @@ TrackerReport StreamTracks(const TrackerOptions& options, const std::filesystem:
   for (const std::exception_ptr& error : {decode_error, find_error, link_error}) {
     if (error) std::rethrow_exception(error);
   }
+}
+
+}  // namespace
+
+TrackerReport StreamTracks(const TrackerOptions& options, const std::filesystem::path& path,
+                           const TakeTracklet& take, const Progress& progress,
+                           std::optional<double> fps, const CheckpointPlace& place) {
+  CheckOptions(options);
+  const Stopwatch total;
+  std::optional<VideoSource> video(std::in_place, path);
+  TrackerReport report;
+  const bool is_saved = !place.folder.empty();
+  TrackCheckpoint checkpoint(place, is_saved ? internal::FingerprintOf(options, path) : "");
+  Finder finder(options, is_saved, &report.timings);
+  const auto new_linker = [&] {
+    return Linker(options, video->width(), video->height(), checkpoint.sightings());
+  };
+  std::optional<Linker> linker(new_linker());
+  const std::optional<TrackCheckpoint::Saved> saved = checkpoint.Load();
+  if (saved) GoOn(*saved, &*video, &finder, &*linker, &report);
+  const std::int64_t frames_before = report.frames;
+
+  linker->set_may_ask(!saved && finder.detector.CanTakeOutStill());
+  Track(saved.has_value(), progress, &*video, &finder, &*linker, &checkpoint, &report);
+  if (linker->asks_for_second_look()) {
+    video.emplace(path);
+    finder.Restart(path);
+    linker.emplace(new_linker());
+    report.frames = report.detections = 0;
+    Track(false, progress, &*video, &finder, &*linker, &checkpoint, &report);
+  }
 
   const Detector& detector = finder.detector;
-  report.timings = timings;
   report.usual_length_px = detector.usual_length();
   report.usual_contrast = detector.usual_contrast();
   report.dark = detector.finds_dark();
   report.bright = detector.finds_bright();
+  const std::int64_t declared = video->frame_count().value_or(0);
   if (report.frames < declared) {
     report.warnings.push_back("the video declares " + std::to_string(declared) +
                               " frames, but only " + std::to_string(report.frames) +
                               " could be read");
   }
-  report.fps = fps ? fps : video.fps();
-  linker.Finish(take, &report);
+  report.fps = fps ? fps : video->fps();
+  linker->Finish(take, &report);
   checkpoint.Remove();
   report.timings.total_s = total.Seconds();
   report.frames_before = frames_before;

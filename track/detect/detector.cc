@@ -121,7 +121,7 @@ double Detector::Window(int image_height) const {
 }
 
 void Detector::Learn(std::span<const GrayImage> images, ThreadPool* pool) {
-  if (options_.polarity == "auto") LearnPolarity(images, pool);
+  if (options_.polarity == "auto" && still_.empty()) LearnPolarity(images, pool);
   DetectAll(0, images, pool);
 }
 
@@ -142,6 +142,30 @@ void Detector::LearnPolarity(std::span<const GrayImage> images, ThreadPool* pool
   bright_ = !dark_;
 }
 
+void Detector::LookForStill(const GrayImage& image, StillLooks* looks) {
+  Scratch& scratch = scratch_.front();
+  const LocalBackground background = MarkCandidates(image, dark_, &scratch);
+  looks->Add(dark_, scratch.smooth, background, scratch.mask);
+}
+
+void Detector::TakeOut(StillPicture still) {
+  still_ = std::move(still);
+  recent_.clear();
+  usual_length_ = usual_contrast_ = 0;
+  frames_since_summary_ = 0;
+}
+
+// Whether what stands still is still there.
+void Detector::FollowStill(const GrayImage& image) {
+  if (still_.empty()) return;
+  Scratch& scratch = scratch_.front();
+  still_.TakeOut(dark_, image, &scratch.cleaned);
+  const LocalBackground background = MarkCandidates(scratch.cleaned, dark_, &scratch);
+  cv::Mat smooth = View(scratch.smooth);
+  cv::GaussianBlur(View(image), smooth, cv::Size(3, 3), 0);
+  still_.Follow(dark_, scratch.smooth, background, kSummaryInterval);
+}
+
 BlobFrame Detector::Detect(int frame, const GrayImage& image) {
   BlobFrame found = Find(frame, image, &scratch_.front());
   Remember(found);
@@ -160,6 +184,7 @@ std::vector<BlobFrame> Detector::DetectAll(int first_frame, std::span<const Gray
       all[at] = Find(first_frame + static_cast<int>(at), images[at], &scratch_[k]);
     });
     for (const std::size_t end = done + count; done < end; ++done) Remember(all[done]);
+    if (frames_since_summary_ == 0) FollowStill(images[done - 1]);
   }
   return all;
 }
@@ -173,8 +198,10 @@ BlobFrame Detector::Find(int frame, const GrayImage& image, Scratch* scratch) co
   BlobFrame found;
   found.frame = frame;
   found.pixels.reserve(usual_pixels_);
-  if (dark_) FindBlobs(image, true, scratch, &found);
-  if (bright_) FindBlobs(image, false, scratch, &found);
+  if (!still_.empty()) still_.TakeOut(dark_, image, &scratch->cleaned);
+  const GrayImage& cleaned = still_.empty() ? image : scratch->cleaned;
+  if (dark_) FindBlobs(cleaned, true, scratch, &found);
+  if (bright_) FindBlobs(cleaned, false, scratch, &found);
   return found;
 }
 
@@ -192,26 +219,33 @@ bool Detector::StandsOut(const Component& c, const ContrastView& view,
   return false;
 }
 
-void Detector::FindBlobs(const GrayImage& image, bool dark, Scratch* scratch,
-                         BlobFrame* found) const {
+// The candidates, in the scratch's mask, of its smooth picture.
+LocalBackground Detector::MarkCandidates(const GrayImage& image, bool dark,
+                                         Scratch* scratch) const {
   GrayImage& smooth = scratch->smooth;
   Fit(image.width, image.height, &smooth);
   cv::Mat smooth_view = View(smooth);
   cv::GaussianBlur(View(image), smooth_view, cv::Size(3, 3), 0);
-  const double window = Window(image.height);
-  const LocalBackground background = EstimateBackground(
-      smooth, window, kLeastNoise, std::max(kLeastOutlier, kOutlierContrast * usual_contrast_));
-
-  const double least_contrast = options_.relative_contrast * usual_contrast_;
+  LocalBackground background =
+      EstimateBackground(smooth, Window(image.height), kLeastNoise,
+                         std::max(kLeastOutlier, kOutlierContrast * usual_contrast_));
   std::vector<float> low(background.noise.size());
   for (std::size_t k = 0; k < low.size(); ++k) {
-    low[k] = static_cast<float>(kLowOverHigh *
-                                std::max(options_.threshold * background.noise[k], least_contrast));
+    low[k] =
+        static_cast<float>(kLowOverHigh * std::max(options_.threshold * background.noise[k],
+                                                   options_.relative_contrast * usual_contrast_));
   }
   MarkContrast(smooth, background, dark, low, &scratch->limit, &scratch->mask);
+  return background;
+}
 
+void Detector::FindBlobs(const GrayImage& image, bool dark, Scratch* scratch,
+                         BlobFrame* found) const {
+  const LocalBackground background = MarkCandidates(image, dark, scratch);
+  const double window = Window(image.height);
+  const double least_contrast = options_.relative_contrast * usual_contrast_;
   const LevelTable level(background, image.width, image.height);
-  const ContrastView view{image, smooth, level, dark ? 1.0 : -1.0};
+  const ContrastView view{image, scratch->smooth, level, dark ? 1.0 : -1.0};
   const Components components = FindComponents(scratch->mask);
   for (const Component& c : components) {
     if (c.area < options_.min_area) {
@@ -275,6 +309,7 @@ void Detector::Save(StateWriter* state) const {
   state->Put(frames_since_summary_);
   state->Put(static_cast<std::uint64_t>(recent_.size()));
   for (const Trace& trace : recent_) state->Put(trace);
+  still_.Save(state);
 }
 
 void Detector::Load(StateReader* state) {
@@ -287,6 +322,7 @@ void Detector::Load(StateReader* state) {
   state->Take(&count);
   recent_.resize(count);
   for (Trace& trace : recent_) state->Take(&trace);
+  still_.Load(state);
 }
 
 }  // namespace flocklift

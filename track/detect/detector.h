@@ -8,7 +8,7 @@
 //   2 T = max(threshold * sd, relative_contrast * C).
 // Sign, usual contrast and usual length are learned from the footage and follow it. Contrast is
 // measured against the same frame's surroundings, so clouds that are smoother than an animal is
-// long, and fades, do not fire.
+// long, and fades, do not fire; what stands still can be taken out beforehand (still_picture.h).
 
 #ifndef FLOCKLIFT_TRACK_DETECT_DETECTOR_H_
 #define FLOCKLIFT_TRACK_DETECT_DETECTOR_H_
@@ -26,6 +26,7 @@
 #include "track/detect/blob.h"
 #include "track/detect/components.h"
 #include "track/detect/patch_blobs.h"
+#include "track/detect/still_picture.h"
 #include "track/gray_image.h"
 
 namespace flocklift {
@@ -60,6 +61,12 @@ class Detector {
   // Learns sign, contrast and length from frames of the footage's start.
   void Learn(std::span<const GrayImage> images, ThreadPool* pool);
 
+  // A look at what stands still, of animals of one sign; and what was learned from all looks, which
+  // is taken out from then on: Learn has to follow.
+  bool CanTakeOutStill() const { return dark_ != bright_; }
+  void LookForStill(const GrayImage& image, StillLooks* looks);
+  void TakeOut(StillPicture still);
+
   BlobFrame Detect(int frame, const GrayImage& image);
 
   // The same for consecutive frames, several at a time. What is learned on the way changes once in
@@ -87,12 +94,14 @@ class Detector {
   // Memory of one thread, kept so that no frame allocates it anew.
   struct Scratch {
     PatchCutter cutter;
-    GrayImage smooth, limit, mask;
+    GrayImage cleaned, smooth, limit, mask;
   };
 
   int FramesToSummary() const;
   BlobFrame Find(int frame, const GrayImage& image, Scratch* scratch) const;
+  LocalBackground MarkCandidates(const GrayImage& image, bool dark, Scratch* scratch) const;
   void FindBlobs(const GrayImage& image, bool dark, Scratch* scratch, BlobFrame* found) const;
+  void FollowStill(const GrayImage& image);
   void DropIgnored(std::size_t first, BlobFrame* found) const;
   void Remember(const BlobFrame& found);
   double Window(int image_height) const;
@@ -100,6 +109,7 @@ class Detector {
 
   DetectorOptions options_;
   std::vector<Box> ignored_;
+  StillPicture still_;
   bool dark_ = true, bright_ = false;
   double usual_length_ = 0, usual_contrast_ = 0;  // 0: not known yet
   std::deque<Trace> recent_;
