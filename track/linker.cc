@@ -87,7 +87,7 @@ void Linker::Finish(const TakeTracklet& take, TrackerReport* report) {
     report->separability = separability_;
     report->camera_moves = !camera_.rests();
     report->correlation = model_.correlation;
-    report->clutter = static_cast<std::int64_t>(clutter_.learned());
+    report->clutter += clutter();
     JoinAndFinish(options_, noise_, width_, height_, camera_,
                   tracker_ ? tracker_->Finish() : std::vector<TrackRecord>{}, take, report);
   });

@@ -7,6 +7,7 @@
 #ifndef FLOCKLIFT_TRACK_LINKER_H_
 #define FLOCKLIFT_TRACK_LINKER_H_
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -34,6 +35,7 @@ class Linker {
   // for all frames anew, without it. Then nothing was linked.
   void set_may_ask(bool may_ask) { may_ask_ = may_ask; }
   bool asks_for_second_look() const { return asks_; }
+  std::int64_t clutter() const { return static_cast<std::int64_t>(clutter_.learned()); }  // places
 
   // Whether there is a state to save: not while the first frames are kept.
   bool CanSave() const { return tracker_.has_value(); }

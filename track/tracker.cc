@@ -112,6 +112,7 @@ void GoOn(const TrackCheckpoint::Saved& saved, VideoSource* video, Finder* finde
   StateReader state(saved.state);
   finder->Load(&state);
   state.Take(&report->detections);
+  state.Take(&report->clutter);
   linker->Load(&state);
   report->frames = saved.frame;
   video->Skip(saved.frame);
@@ -121,6 +122,7 @@ void Save(const std::string& finder_state, const TrackerReport& report, const Li
           TrackCheckpoint* checkpoint) {
   StateWriter state;
   state.Put(report.detections);
+  state.Put(report.clutter);
   linker.Save(&state);
   checkpoint->Keep(report.frames, finder_state + state.bytes());
 }
@@ -188,6 +190,7 @@ TrackerReport StreamTracks(const TrackerOptions& options, const std::filesystem:
   linker->set_may_ask(!saved && finder.detector.CanTakeOutStill());
   Track(saved.has_value(), progress, &*video, &finder, &*linker, &checkpoint, &report);
   if (linker->asks_for_second_look()) {
+    report.clutter = linker->clutter();
     video.emplace(path);
     finder.Restart(path);
     linker.emplace(new_linker());
