@@ -108,7 +108,8 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
     known.push_back(KnownIn(PartOf(segments, window, fps, first_frame), knowledge));
     rows += static_cast<double>(known.back().second);
   }
-  const int iterations = options.max_iterations + kSpreadRounds * kSpreadIterations;
+  const int iterations =
+      kStartIterations + kSpreadRounds * kSpreadIterations + options.max_iterations;
   const std::int64_t total = static_cast<std::int64_t>(windows.size()) * iterations;
   std::int64_t done = 0;
   std::optional<Belief> belief;

@@ -4,7 +4,7 @@
 // Depth by one solve over the whole sequence: the path of every animal and the flock's few unknowns
 // that best explain rays, sizes and what is known of flight (batch_problem.h), by Gauss-Newton with
 // Levenberg's damping per animal, from a search on a grid (depth_search.h). Spreads of the priors
-// are re-estimated between solves by expectation maximisation with the posterior covariances.
+// are re-estimated between solves by marginal likelihood (spread_estimator.h).
 // Sequences longer than a window are solved window by window (windows.h), from the one where most
 // is known outwards; each hands on what it has found of the flock's unknowns. Linear in frames;
 // parallel over animals; the same at any number of threads.

@@ -38,7 +38,8 @@ void SpreadEstimator::Add(Term term, double error, double variance) {
   const double sd = SdOf(term);
   // An outlier counts as what the robust loss makes of it.
   const double weight = RobustWeight(term, error / sd);
-  squares_[k] += weight * error * error + std::min(variance, 9 * sd * sd);
+  squares_[k] += weight * error * error;
+  variances_[k] += variance;
   counts_[k] += 1;
 }
 
@@ -58,6 +59,7 @@ void SpreadEstimator::Merge(const SpreadEstimator& other) {
   differences_ += other.differences_;
   for (std::size_t k = 0; k < kTermCount; ++k) {
     squares_[k] += other.squares_[k];
+    variances_[k] += other.variances_[k];
     counts_[k] += other.counts_[k];
   }
 }
@@ -67,8 +69,11 @@ void SpreadEstimator::Update(const Spreads& guess, double knot_interval, Spreads
     const std::size_t k = static_cast<std::size_t>(term);
     if (counts_[k] == 0) return;
     const double n = term == Term::kTurn ? counts_[k] / 3 : animals_;
-    const double mean = squares_[k] / counts_[k];
-    const double next = std::sqrt((n * mean + worth * first * first) / (n + worth));
+    const double now = SdOf(term);
+    // What is seen of the errors; a posterior wider than the prior is one of outliers.
+    const double seen = std::max(0.0, 1 - variances_[k] / (counts_[k] * now * now));
+    const double next =
+        std::sqrt((n * squares_[k] / counts_[k] + worth * first * first) / (n * seen + worth));
     *sd = std::clamp(next, 0.1 * first, 10 * first);
   };
   update(Term::kAcceleration, guess.acceleration.sd, &spreads->acceleration.sd);
@@ -77,6 +82,8 @@ void SpreadEstimator::Update(const Spreads& guess, double knot_interval, Spreads
   update(Term::kClimb, guess.climb.sd, &spreads->climb.sd);
   update(Term::kDepth, guess.depth.sd, &spreads->depth.sd, kWidthWorth);
   update(Term::kSpeedSpread, guess.speed_between, &spreads->speed_between);
+  update(Term::kSizeSpread, guess.size_between, &spreads->size_between);
+  spreads->size_between = std::max(spreads->size_between, guess.size_between);
   update(Term::kTurn, guess.turn.sd, &spreads->turn.sd);
   if (sums_ + differences_ > 0) {
     const double found = (sums_ - differences_) / (sums_ + differences_);
@@ -102,6 +109,8 @@ double SpreadEstimator::SdOf(Term term) const {
       return now_.depth.sd;
     case Term::kSpeedSpread:
       return now_.speed_between;
+    case Term::kSizeSpread:
+      return now_.size_between;
     case Term::kTurn:
       return now_.turn.sd;
     default:

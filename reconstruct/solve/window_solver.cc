@@ -21,9 +21,10 @@
 namespace flocklift::internal {
 namespace {
 
-// One round of expectation maximisation of the spreads at the present solution. Returns the
-// covariance of the flock's unknowns.
-Eigen::MatrixXd EstimateSpreads(const Spreads& guess, BatchState* state, BatchSolver* solver) {
+// One round of estimating the spreads, at the present solution. Returns the covariance of the
+// flock's unknowns.
+Eigen::MatrixXd EstimateSpreads(const Spreads& guess, bool size_spread, BatchState* state,
+                                BatchSolver* solver) {
   const Eigen::MatrixXd covariance = solver->Linearize();
   constexpr double kInterval = 0.5;  // between the errors that are looked at [s]
   const int stride =
@@ -54,6 +55,10 @@ Eigen::MatrixXd EstimateSpreads(const Spreads& guess, BatchState* state, BatchSo
     own.AddBorder(kOwnUnknowns + kFlockLogSpeed, -1);
     of_bird[i].Add(Term::kSpeedSpread, bird.own[kOwnLogSpeed] - state->shared[kFlockLogSpeed],
                    system.VarianceOf(posterior, own));
+    if (!size_spread) return;
+    ResidualRow bias;
+    bias.AddBorder(kOwnSizeBias, 1);
+    of_bird[i].Add(Term::kSizeSpread, bird.own[kOwnSizeBias], system.VarianceOf(posterior, bias));
   });
   SpreadEstimator all(state->model.spreads);
   for (const SpreadEstimator& estimator : of_bird) all.Merge(estimator);
@@ -86,19 +91,21 @@ void UpdateCurves(BatchState* state) {
 }
 
 // How boxes relate to the wingspan in these views, as far as headings are known now.
-// Returns how probably they are as large from every side.
-double UpdateSizeModel(const BatchOptions& options, const BoxForm& form, const SizeModel& usual,
-                       const Eigen::MatrixXd& covariance, BatchState* state) {
+// `wingspan_sd`: relative, of the flock's mean. Returns how probably they are as large from every
+// side.
+double UpdateSizeModel(const BatchOptions& options, double wingspan_sd, const BoxForm& form,
+                       const SizeModel& usual, const Eigen::MatrixXd& covariance,
+                       BatchState* state) {
   BatchModel& model = state->model;
   const SizeModel used{model.size_ratio, model.log_trunk, model.log_up};
   static_assert(kLogTrunk == kSizeRatio + 1 && kLogUp == kSizeRatio + 2);
   const SizeLikelihood likelihood(state->shared.segment<3>(kSizeRatio),
                                   covariance.block<3, 3>(kSizeRatio, kSizeRatio), used);
-  const double sd = std::hypot(options.size_ratio_sd, model.spreads.size_between);
+  const double sd = std::hypot(options.size_ratio_sd, wingspan_sd);
   SizeModel body = usual;
   body.ratio = ExpectedBoxRatio(model, state->birds, state->shared, sd);
   SizeModel stiff = StiffSizes(form);
-  stiff.ratio.sd = std::hypot(stiff.ratio.sd, model.spreads.size_between);
+  stiff.ratio.sd = std::hypot(stiff.ratio.sd, wingspan_sd);
   const double p = ProbabilityOfStiff(likelihood, form, body, stiff);
   const SizeModel next = Mixture(p, body, stiff);
   model.size_ratio = next.ratio;
@@ -233,19 +240,27 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
 
   BatchSolver solver(&state, threads);
   report.initial_cost = solver.Cost();
-  report.converged = solver.Minimize(options.max_iterations, &report.iterations, on_iteration);
+  // While the spreads change there is no need to come to a standstill.
+  const auto minimize = [&](int most) {
+    report.converged =
+        solver.Minimize(std::min(most, options.max_iterations), &report.iterations, on_iteration);
+  };
+  minimize(options.estimate ? kStartIterations : options.max_iterations);
   if (options.estimate) {
     const Spreads first_guess = state.model.spreads;
     const BatchModel& model = state.model;
     const SizeModel usual{model.size_ratio, model.log_trunk, model.log_up};
     const bool size_is_known = knowledge.wingspan && model.use_size && !model.belief;
+    const bool size_spread = knowledge.wingspan && knowledge.speed && model.use_size;
     for (int round = 0; round < kSpreadRounds; ++round) {
-      const Eigen::MatrixXd covariance = EstimateSpreads(first_guess, &state, &solver);
+      const Eigen::MatrixXd covariance = EstimateSpreads(first_guess, size_spread, &state, &solver);
       UpdateCurves(&state);
       if (size_is_known) {
-        report.stiff_boxes = UpdateSizeModel(options, segments.form, usual, covariance, &state);
+        report.stiff_boxes = UpdateSizeModel(options, first_guess.size_between, segments.form,
+                                             usual, covariance, &state);
       }
-      report.converged = solver.Minimize(kSpreadIterations, &report.iterations, on_iteration);
+      const bool last = round + 1 == kSpreadRounds;
+      minimize(last ? options.max_iterations : kSpreadIterations);
     }
   }
   if (refine) refine({segments, belief, first_frame, state.model, &state.birds, &state.shared});

@@ -19,7 +19,8 @@
 
 namespace flocklift::internal {
 
-inline constexpr int kSpreadRounds = 4, kSpreadIterations = 12;  // of each, at most
+inline constexpr int kStartIterations = 15;                     // before the first round, at most
+inline constexpr int kSpreadRounds = 8, kSpreadIterations = 6;  // of each but the last, at most
 
 struct SolvedWindow {
   BatchResult result;

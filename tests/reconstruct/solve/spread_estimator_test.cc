@@ -35,8 +35,9 @@ TEST(SpreadEstimator, ByHand) {
   one.Merge(other);
   Spreads next = guess;
   one.Update(guess, kKnotInterval, &next);
-  const double mean = (0.09 + 0.01 + 0.01 + 0.02 + 0.25 + 0.03) / 3;
-  EXPECT_NEAR(next.speed.sd, std::sqrt((1.5 * mean + 4 * 0.04) / 5.5), 1e-12);
+  const double mean = (0.09 + 0.01 + 0.25) / 3;
+  const double seen = 1 - (0.01 + 0.02 + 0.03) / 3 / 0.04;
+  EXPECT_NEAR(next.speed.sd, std::sqrt((1.5 * mean + 4 * 0.04) / (1.5 * seen + 4)), 1e-12);
   EXPECT_EQ(next.turn.sd, guess.turn.sd);  // of which nothing was said
 }
 
@@ -47,7 +48,72 @@ TEST(SpreadEstimator, OutliersAndVaguePosteriorsAreBounded) {
   estimator.Add(Term::kSpeed, 1, 5);  // 10 sds, of which Huber's loss counts 3
   Spreads next = guess;
   estimator.Update(guess, kKnotInterval, &next);
-  EXPECT_NEAR(next.speed.sd, std::sqrt((0.3 + 0.09 + 4 * 0.01) / 5), 1e-12);
+  EXPECT_NEAR(next.speed.sd, std::sqrt((0.3 + 4 * 0.01) / 4), 1e-12);
+}
+
+// Where expectation maximisation stands still, so does this.
+TEST(SpreadEstimator, StandsWhereTheEvidenceIsGreatest) {
+  const Spreads guess = Guess(0.2);
+  Spreads now = guess;
+  now.speed.sd = 0.1;
+  const double variance = 0.004;
+  const double square = (11 * 0.01 - 4 * 0.04) / 7 + 0.02;  // of seven animals
+  ASSERT_GT(square, variance);
+  now.speed.sd = std::sqrt((7 * square + 4 * 0.04) / 11);
+  SpreadEstimator estimator(now);
+  for (int animal = 0; animal < 7; ++animal) {
+    estimator.BeginAnimal(10);
+    estimator.Add(Term::kSpeed, std::sqrt(square - variance), variance);
+  }
+  Spreads next = now;
+  estimator.Update(guess, kKnotInterval, &next);
+  EXPECT_NEAR(next.speed.sd, now.speed.sd, 1e-12);
+}
+
+// Errors of sd 0.04 between animals that are measured to 0.1 each: the marginal likelihood of what
+// was measured tells their spread, in a few rounds, although each error by itself is hardly seen.
+TEST(SpreadEstimator, FindsASpreadBelowTheNoiseInAFewRounds) {
+  constexpr int kAnimals = 4000;
+  constexpr double kNoise = 0.1, kSpread = 0.04;
+  Rng rng(3, 1);
+  std::array<double, kAnimals> measured;
+  double squares = 0;
+  for (double& m : measured) {
+    m = kSpread * rng.Normal() + kNoise * rng.Normal();
+    squares += m * m / kAnimals;
+  }
+  Spreads guess;
+  guess.speed_between = 0.1;
+  Spreads now = guess;
+  for (int round = 0; round < 8; ++round) {
+    SpreadEstimator estimator(now);
+    const double prior = now.speed_between * now.speed_between;
+    const double share = prior / (prior + kNoise * kNoise);
+    for (const double m : measured) {
+      estimator.BeginAnimal(10);
+      estimator.Add(Term::kSpeedSpread, share * m, share * kNoise * kNoise);
+    }
+    estimator.Update(guess, kKnotInterval, &now);
+  }
+  const double likeliest = std::sqrt(squares - kNoise * kNoise);
+  EXPECT_NEAR(now.speed_between, likeliest, 0.012);  // expectation maximisation: 0.023 off
+  EXPECT_NEAR(likeliest, kSpread, 0.008);
+}
+
+TEST(SpreadEstimator, SizesDifferAtLeastAsStated) {
+  Spreads guess = Guess(0.1);
+  guess.size_between = 0.05;
+  for (const double error : {0.01, 0.12}) {
+    SpreadEstimator estimator(guess);
+    for (int animal = 0; animal < 60; ++animal) {
+      estimator.BeginAnimal(10);
+      estimator.Add(Term::kSizeSpread, animal % 2 == 0 ? error : -error, 0);
+    }
+    Spreads next = guess;
+    estimator.Update(guess, kKnotInterval, &next);
+    const double wider = std::sqrt((60 * 0.0144 + 4 * 0.0025) / 64);
+    EXPECT_NEAR(next.size_between, error < 0.05 ? 0.05 : wider, 1e-12);
+  }
 }
 
 // Many animals whose errors are known: theirs is the spread, whatever was guessed, within a factor
