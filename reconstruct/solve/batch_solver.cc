@@ -66,9 +66,9 @@ void BatchSolver::Reduce(double damping_factor, Eigen::MatrixXd* matrix,
   }
 }
 
-bool BatchSolver::Minimize(int max_iterations, int* iterations,
+bool BatchSolver::Minimize(int max_iterations, const Standstill& standstill, int* iterations,
                            const std::function<void()>& on_iteration) {
-  constexpr double kEnough = 2e-3, kEnoughRelative = 1e-8;  // fall of the cost that counts
+  constexpr double kRounding = 1e-8;  // of the cost
   double cost = Cost();
   for (std::size_t i = 0; i < work_.size(); ++i) work_[i].candidate = state_.birds[i];
   int still = 0;
@@ -124,14 +124,14 @@ bool BatchSolver::Minimize(int max_iterations, int* iterations,
         w.cost = w.candidate_cost;
         w.damping = std::clamp(w.damping * (w.moved ? 0.2 : 8), kLeastDamping, kMostDamping);
       }
-      still = cost - candidate < kEnough + kEnoughRelative * cost ? still + 1 : 0;
+      still = cost - candidate < standstill.fall + kRounding * cost ? still + 1 : 0;
       cost = candidate;
     }
     if (!accepted) {
       ++still;
       for (Workspace& w : work_) w.damping = std::min(w.damping * 10, kMostDamping);
     }
-    if (still >= 3) return true;
+    if (still >= standstill.times) return true;
   }
   return false;
 }

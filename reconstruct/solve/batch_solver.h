@@ -49,8 +49,15 @@ class BatchSolver {
     }
   }
 
+  // When the cost stands still: when it falls by less than `fall` so many times on end.
+  struct Standstill {
+    double fall = 2e-3;
+    int times = 3;
+  };
+
   // Until the cost stands still. Returns whether it did; counts the iterations.
-  bool Minimize(int max_iterations, int* iterations, const std::function<void()>& on_iteration);
+  bool Minimize(int max_iterations, const Standstill& standstill, int* iterations,
+                const std::function<void()>& on_iteration);
 
   double Cost();
 

@@ -240,13 +240,15 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
 
   BatchSolver solver(&state, threads);
   report.initial_cost = solver.Cost();
-  // While the spreads change there is no need to come to a standstill.
-  const auto minimize = [&](int most) {
-    report.converged =
-        solver.Minimize(std::min(most, options.max_iterations), &report.iterations, on_iteration);
+  const auto minimize = [&](int most, const BatchSolver::Standstill& standstill) {
+    report.converged = solver.Minimize(std::min(most, options.max_iterations), standstill,
+                                       &report.iterations, on_iteration);
   };
-  minimize(options.estimate ? kStartIterations : options.max_iterations);
+  // While the spreads change a tenth of a unit of log likelihood is nothing to wait for.
+  constexpr BatchSolver::Standstill kRoughly{.fall = 0.1, .times = 1}, kFinally{};
+  if (!options.estimate) minimize(options.max_iterations, kFinally);
   if (options.estimate) {
+    minimize(kStartIterations, kRoughly);
     const Spreads first_guess = state.model.spreads;
     const BatchModel& model = state.model;
     const SizeModel usual{model.size_ratio, model.log_trunk, model.log_up};
@@ -259,9 +261,9 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
         report.stiff_boxes = UpdateSizeModel(options, first_guess.size_between, segments.form,
                                              usual, covariance, &state);
       }
-      const bool last = round + 1 == kSpreadRounds;
-      minimize(last ? options.max_iterations : kSpreadIterations);
+      minimize(kSpreadIterations, kRoughly);
     }
+    minimize(options.max_iterations, kFinally);
   }
   if (refine) refine({segments, belief, first_frame, state.model, &state.birds, &state.shared});
   report.final_cost = solver.Cost();

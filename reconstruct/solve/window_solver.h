@@ -20,7 +20,7 @@
 namespace flocklift::internal {
 
 inline constexpr int kStartIterations = 15;                     // before the first round, at most
-inline constexpr int kSpreadRounds = 8, kSpreadIterations = 6;  // of each but the last, at most
+inline constexpr int kSpreadRounds = 8, kSpreadIterations = 6;  // of each, at most
 
 struct SolvedWindow {
   BatchResult result;
