@@ -51,8 +51,8 @@ class BatchSolver {
 
   // When the cost stands still: when it falls by less than `fall` so many times on end.
   struct Standstill {
-    double fall = 2e-3;
-    int times = 3;
+    double fall = 0;
+    int times = 1;
   };
 
   // Until the cost stands still. Returns whether it did; counts the iterations.

@@ -244,11 +244,13 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
     report.converged = solver.Minimize(std::min(most, options.max_iterations), standstill,
                                        &report.iterations, on_iteration);
   };
-  // While the spreads change a tenth of a unit of log likelihood is nothing to wait for.
-  constexpr BatchSolver::Standstill kRoughly{.fall = 0.1, .times = 1}, kFinally{};
-  if (!options.estimate) minimize(options.max_iterations, kFinally);
+  // In units of log likelihood. While the spreads change there is less to wait for.
+  const double animals = static_cast<double>(state.birds.size());
+  const BatchSolver::Standstill roughly{.fall = 0.01 * animals, .times = 1};
+  const BatchSolver::Standstill finally{.fall = 2e-4 * animals, .times = 3};
+  if (!options.estimate) minimize(options.max_iterations, finally);
   if (options.estimate) {
-    minimize(kStartIterations, kRoughly);
+    minimize(kStartIterations, roughly);
     const Spreads first_guess = state.model.spreads;
     const BatchModel& model = state.model;
     const SizeModel usual{model.size_ratio, model.log_trunk, model.log_up};
@@ -261,9 +263,9 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
         report.stiff_boxes = UpdateSizeModel(options, first_guess.size_between, segments.form,
                                              usual, covariance, &state);
       }
-      minimize(kSpreadIterations, kRoughly);
+      minimize(kSpreadIterations, roughly);
     }
-    minimize(options.max_iterations, kFinally);
+    minimize(options.max_iterations, finally);
   }
   if (refine) refine({segments, belief, first_frame, state.model, &state.birds, &state.shared});
   report.final_cost = solver.Cost();
