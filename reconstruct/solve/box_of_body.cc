@@ -26,14 +26,29 @@ struct Pose {
   Vec3d heading, side, up;
 };
 
-// An animal whose side gravity does not tell may be rolled by any angle: `roll` of `rolls`.
-Pose PoseAt(const Vec3d& heading, const std::optional<Vec3d>& lift, int roll, int rolls) {
-  const Vec3d aside = std::abs(heading.z) < 0.7 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0};
-  const Vec3d side = Normalized(Cross(heading, lift.value_or(aside)));
-  const Vec3d up = Cross(side, heading);
-  const double angle = std::numbers::pi * roll / rolls;
-  return {heading, std::cos(angle) * side + std::sin(angle) * up,
-          std::cos(angle) * up - std::sin(angle) * side};
+Pose PoseAt(const Vec3d& heading, const Vec3d& lift) {
+  Vec3d side = Cross(heading, lift);
+  if (!(SquaredNorm(side) > 1e-9 * SquaredNorm(lift))) {  // straight up
+    side = Cross(heading, std::abs(heading.z) < 0.7 ? Vec3d{0, 0, 1} : Vec3d{1, 0, 0});
+  }
+  side = Normalized(side);
+  return {heading, side, Cross(side, heading)};
+}
+
+// Where up may be, with its probability.
+struct Up {
+  Vec3d direction;
+  double weight = 1;
+};
+
+// Gravity unknown: a formula of degree 5 for means over the sphere, corners and faces of a cube
+// (Abramowitz and Stegun 25.4.65). Opposite directions look the same.
+std::vector<Up> PossibleUps(const std::optional<Vec3d>& known) {
+  if (known) return {{*known, 1}};
+  constexpr double kFace = 2.0 / 15, kCorner = 3.0 / 20;
+  const double c = 1 / std::sqrt(3.0);
+  return {{{1, 0, 0}, kFace},    {{0, 1, 0}, kFace},    {{0, 0, 1}, kFace},   {{c, c, c}, kCorner},
+          {{-c, c, c}, kCorner}, {{c, -c, c}, kCorner}, {{c, c, -c}, kCorner}};
 }
 
 // log sqrt(W^2 + H^2), in the mean over the wingbeat.
@@ -60,10 +75,9 @@ double LogBox(const BodyShape& body, const Pose& pose, const Vec2d& ray) {
 
 }  // namespace
 
-double BoxRatio(const BodyShape& body, const BatchModel& model, const std::vector<Bird>& birds,
-                const Eigen::VectorXd& shared, int stride) {
+double BoxRatio(const BodyShape& body, const Vec3d& up, const BatchModel& model,
+                const std::vector<Bird>& birds, const Eigen::VectorXd& shared, int stride) {
   const double rate = 1 / model.knot_interval;
-  const int rolls = model.up_in_cam ? 1 : 6;
   double sum = 0;
   int count = 0;
   for (const Bird& bird : birds) {
@@ -80,15 +94,12 @@ double BoxRatio(const BodyShape& body, const BatchModel& model, const std::vecto
       double error = 0;
       size(c, 0.0, 0.0, shared[kLogTrunk], shared[kLogUp], shared[kLean], &error);
       const double log_root_q = q.l - error;
-      std::optional<Vec3d> lift = model.up_in_cam;
-      if (lift) *lift += shared[kLean] * bird.curve[knot];
+      const Vec3d lift = model.up_in_cam ? up + shared[kLean] * bird.curve[knot] : up;
       const Vec3d velocity = VelocityOverDepth(q, size.camera);
       const double speed = Norm(velocity);
       if (!(speed > 0)) continue;
-      for (int roll = 0; roll < rolls; ++roll) {
-        const Pose pose = PoseAt((1 / speed) * velocity, lift, roll, rolls);
-        sum += (LogBox(body, pose, {q.x, q.y}) - log_root_q) / rolls;
-      }
+      const Pose pose = PoseAt((1 / speed) * velocity, lift);
+      sum += LogBox(body, pose, {q.x, q.y}) - log_root_q;
       ++count;
     }
   }
@@ -99,17 +110,24 @@ Uncertain ExpectedBoxRatio(const BatchModel& model, const std::vector<Bird>& bir
                            const Eigen::VectorXd& shared, double other_sd) {
   constexpr double kInterval = 0.5;  // between the knots that are looked at [s]
   const int stride = std::max(1, static_cast<int>(std::lround(kInterval / model.knot_interval)));
-  const auto ratio = [&](double length, double amplitude) {
-    const BodyShape usual;
-    return BoxRatio({usual.length + length, usual.amplitude + amplitude}, model, birds, shared,
-                    stride);
-  };
-  // Unscented: the mean and the sd over the two unknowns, from two points along each.
-  const double middle = ratio(0, 0);
-  const double longer = ratio(kLengthSd, 0), shorter = ratio(-kLengthSd, 0);
-  const double wider = ratio(0, kAmplitudeSd), narrower = ratio(0, -kAmplitudeSd);
-  return {kMargin + 0.5 * (longer + shorter + wider + narrower) - middle,
-          std::hypot(other_sd, 0.5 * (longer - shorter), 0.5 * (wider - narrower))};
+  // Unscented: the mean and the sd over the two unknowns of the body, from two points along each.
+  const BodyShape usual;
+  double mean = 0, square = 0, by_length = 0, by_amplitude = 0;
+  for (const Up& up : PossibleUps(model.up_in_cam)) {
+    const auto ratio = [&](double length, double amplitude) {
+      return BoxRatio({usual.length + length, usual.amplitude + amplitude}, up.direction, model,
+                      birds, shared, stride);
+    };
+    const double longer = ratio(kLengthSd, 0), shorter = ratio(-kLengthSd, 0);
+    const double wider = ratio(0, kAmplitudeSd), narrower = ratio(0, -kAmplitudeSd);
+    const double here = 0.5 * (longer + shorter + wider + narrower) - ratio(0, 0);
+    mean += up.weight * here;
+    square += up.weight * here * here;
+    by_length += up.weight * 0.5 * (longer - shorter);
+    by_amplitude += up.weight * 0.5 * (wider - narrower);
+  }
+  const double by_up = std::sqrt(std::max(0.0, square - mean * mean));
+  return {kMargin + mean, std::hypot(std::hypot(other_sd, by_up), by_length, by_amplitude)};
 }
 
 }  // namespace flocklift::internal

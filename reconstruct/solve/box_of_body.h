@@ -12,7 +12,9 @@
 // in the mean over phases and sightings, Q as in size.h. The usual body is the simulator's: length
 // half the wingspan (core/animal.h; a jackdaw has 33 of 67 to 74 cm), the inner wing raised by 0.8
 // sin(phase) (render/body.h). Other birds differ: by 0.06 in length and 0.25 rad in amplitude (sd),
-// which is assumed, and gives the ratio its sd.
+// which is assumed, and gives the ratio its sd. Where gravity is not known the whole flock has its
+// up somewhere, anywhere on the sphere: what the ratio differs by from one up to another is unknown
+// to all its birds alike, and no number of them lessens it.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BOX_OF_BODY_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_BOX_OF_BODY_H_
@@ -28,9 +30,10 @@ struct BodyShape {
   double amplitude = 0.8;  // A [rad]
 };
 
-// The ratio of such a body. Of every `stride`-th knot with a size; 0 where there is none.
-double BoxRatio(const BodyShape& body, const BatchModel& model, const std::vector<Bird>& birds,
-                const Eigen::VectorXd& shared, int stride);
+// The ratio of such a body in a flock that flies level about `up`, a unit vector: the model's where
+// it knows one. Of every `stride`-th knot with a size; 0 where there is none.
+double BoxRatio(const BodyShape& body, const Vec3d& up, const BatchModel& model,
+                const std::vector<Bird>& birds, const Eigen::VectorXd& shared, int stride);
 
 // The same for a body of which no more is known than that it is a bird's, with its sd; `other_sd`
 // is what else makes boxes larger or smaller than this.

@@ -34,7 +34,10 @@ struct Seen {
     birds.push_back(bird);
   }
 
-  double Ratio(const BodyShape& body) const { return BoxRatio(body, model, birds, shared, 2); }
+  double Ratio(const BodyShape& body) const { return Ratio(body, *model.up_in_cam); }
+  double Ratio(const BodyShape& body, const Vec3d& up) const {
+    return BoxRatio(body, up, model, birds, shared, 2);
+  }
   double Sd() const { return ExpectedBoxRatio(model, birds, shared, 0).sd; }
 };
 
@@ -65,8 +68,33 @@ TEST(BoxOfBodyTest, FromTheSideItIsLengthAndWhatTheWingbeatAdds) {
 // A box about a line of length 1 has that diagonal at any roll, but for its thickness.
 TEST(BoxOfBodyTest, WingsOfUnknownRollSpanAsMuchFromTheFront) {
   const Seen seen({0, 0, -0.1}, std::nullopt, 4);
-  EXPECT_NEAR(seen.Ratio({.length = 0.5, .amplitude = 0}), 0.5 * std::log(1 / ExtentOf(1, 0)),
-              0.01);
+  for (const Vec3d& up : {kUpwards, Vec3d{1, 0, 0}, Vec3d{0.6, 0.8, 0}}) {
+    EXPECT_NEAR(seen.Ratio({.length = 0.5, .amplitude = 0}, up), 0.5 * std::log(1 / ExtentOf(1, 0)),
+                0.01);
+  }
+}
+
+// Birds that fly across are seen from the side or from below, nobody knows which, and all alike.
+TEST(BoxOfBodyTest, AnUnknownUpIsUnknownToAllBirdsAlike) {
+  Seen flock({0.1, 0, 0}, std::nullopt, 4);
+  const double one = flock.Sd();
+  const BodyShape usual;
+  const double apart = flock.Ratio(usual, kAhead) - flock.Ratio(usual, kUpwards);
+  EXPECT_GT(one, 0.25 * apart);
+  EXPECT_LT(one, 0.75 * apart);
+  EXPECT_GT(one, 1.5 * Seen({0.1, 0, 0}, kAhead, 4).Sd());
+  for (int bird = 0; bird < 20; ++bird) flock.birds.push_back(flock.birds.front());
+  EXPECT_NEAR(flock.Sd(), one, 1e-12);
+}
+
+// Headings of all directions are seen from everywhere, wherever up is.
+TEST(BoxOfBodyTest, ManyHeadingsMakeUpMatterLess) {
+  Seen flock({0.1, 0, 0}, std::nullopt, 4);
+  const double one = flock.Sd();
+  for (const Vec3d& w : {Vec3d{0, 0.1, 0}, Vec3d{0, 0, 0.1}}) {
+    flock.birds.push_back(Seen(w, std::nullopt, 4).birds.front());
+  }
+  EXPECT_LT(flock.Sd(), 0.8 * one);
 }
 
 TEST(BoxOfBodyTest, KnowsNothingOfTheScale) {
