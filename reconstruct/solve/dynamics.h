@@ -4,7 +4,8 @@
 // Flock dynamics on top of the batch method: the forces between the animals are estimated together
 // with their paths (coupled_flock.h), from the batch solution on, in turns and with less and less
 // noise. They have to earn their place: a part of the sightings is hidden from both, and the forces
-// are kept only where they predict these better than the batch solution does.
+// are kept only where they predict these better than the batch solution does. What is hidden must
+// last longer than an acceleration does, or smoothness alone predicts it as well.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
@@ -15,7 +16,7 @@ namespace flocklift {
 
 struct DynamicsOptions {
   double hidden = 0.1;
-  double hidden_time = 0.8;
+  double hidden_time = 1.5;
   double noise_sd = 0.8;
   double noise_time = 0.7;
   int rounds = 4;

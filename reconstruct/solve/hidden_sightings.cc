@@ -29,8 +29,8 @@ HiddenSightings::HiddenSightings(double share, double duration, double fps,
     };
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double into = std::fmod(all[k].time + shift, period);
-      const bool inside =
-          all[k].time - all.front().time > duration && all.back().time - all[k].time > duration;
+      const bool inside = all[k].time - all.front().time > 0.5 * duration &&
+                          all.back().time - all[k].time > 0.5 * duration;
       const bool hide = into * fps < frames - 0.5 && inside;
       if (hide) {
         piece.sightings.push_back(all[k]);

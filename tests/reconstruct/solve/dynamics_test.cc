@@ -130,7 +130,7 @@ std::map<std::pair<Id, int>, double> Depths(const DynamicsResult& result,
 TEST(Dynamics, GivesTheSameAtAnyNumberOfThreadsAndAlwaysADepth) {
   const FlockSpec spec{.count = 6, .frames = 90};
   const Segments segments = Seen(spec);
-  const DynamicsOptions options{.rounds = 2};
+  const DynamicsOptions options{.hidden_time = 0.8, .rounds = 2};
   const auto one = Depths(SolveDynamics(options, {}, Known(spec), segments, kFps, 1, {}), segments);
   const auto two = Depths(SolveDynamics(options, {}, Known(spec), segments, kFps, 2, {}), segments);
   EXPECT_EQ(one, two);
