@@ -127,6 +127,9 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
   for (const FittedWeight& weight : result.weights) {
     json["weights"].push_back(WeightAsJson(weight));
   }
+  for (const HeldTest& held : result.held) {
+    json["held"].push_back({{"name", held.name}, {"value", held.value}, {"z", held.z}});
+  }
   json["correlation"] = result.parameters.posterior.correlation;
   if (!accelerates) return json;
   json["best_direction"] = DirectionAsJson(result, result.best);

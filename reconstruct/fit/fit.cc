@@ -62,6 +62,7 @@ FitResult Fitter::Run(const Progress& progress) {
                          : FitStatus::kTooFewRows;
     return std::move(result_);
   }
+  if (result_.method != FitMethod::kStateSpace) TestHeldWeights();
   SummarizeWeights(fit);
   SummarizeRest(fit);
   if (options_.held_out > 0) result_.r2_held_out = Prediction();
@@ -152,12 +153,14 @@ void Fitter::EstimateStates(WhitenedFit* fit) {
   const StateSpaceOptions options{
       .filter = {.substeps = options_.substeps, .bridged_gap = options_.bridged_gap},
       .threads = threads_};
-  const StateSpaceFit states = FitStateSpace(options, process, start, FilterInput(flock_));
+  const FilterInput input(flock_);
+  const StateSpaceFit states = FitStateSpace(options, process, start, input);
   if (!states.IsUsable()) {
     fit->regression.status = RegressionStatus::kTooFewRows;
     return;
   }
   fit->converged = states.status == StateSpaceStatus::kOk;
+  if (fit->converged) ScoreHeldParameters(options, states, input);
   fit->rho.reset();  // the noise is white
   fit->regression.estimate = states.estimate;
   fit->regression.sd = states.sd;

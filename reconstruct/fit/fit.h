@@ -138,6 +138,13 @@ struct FittedWeight {
   std::optional<double> depth_share;
 };
 
+// A parameter that was held at its value, and how far the motion speaks against that: N(0, 1) where
+// the value is right and the model is the truth; 0 where the parameter does not act.
+struct HeldTest {
+  std::string name;
+  double value = 0, z = 0;
+};
+
 // An eigenvector of the weights' covariance, each weight in units of the term's share of the
 // acceleration; `sd` [m/s^2].
 struct FitDirection {
@@ -179,6 +186,7 @@ struct FitResult {
   double own_speed_mean = 0, own_speed_sd = 0;  // the animals' cruising speeds, if any [m/s]
   double condition = 0;                         // of the moment matrix, terms scaled to unit rms
   FitDirection best, worst;
+  std::vector<HeldTest> held;         // of what is not free, where that can be told
   std::vector<std::string> warnings;  // one sentence each
 
   bool IsUsable() const { return status == FitStatus::kOk; }

@@ -6,13 +6,33 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+
+#include "reconstruct/fit/flock_terms.h"
 
 namespace flocklift {
 namespace {
 
 constexpr double kTooManyClamped = 0.3;  // share of rows at a speed limit
 constexpr double kConfining = 0.05;      // share of the unexplained that pulls to the middle
+constexpr double kContradicted = 4;      // sd by which the motion speaks against a held value
+
+// Names the one that is contradicted most: when it is free, the others may be right.
+void WarnOfHeld(FitResult* result) {
+  const auto worst = std::max_element(
+      result->held.begin(), result->held.end(),
+      [](const HeldTest& a, const HeldTest& b) { return std::abs(a.z) < std::abs(b.z); });
+  if (worst == result->held.end() || std::abs(worst->z) < kContradicted) return;
+  std::string names;
+  for (const FittedWeight& weight : result->weights) {
+    if (weight.name != kGoalWeight) names += weight.name + ",";
+  }
+  result->warnings.push_back(
+      fmt::format("{} is held at {:.4g}, and the motion speaks against that by {:.0f} standard "
+                  "deviations, so that what is fitted may be wrong: free it too (--free {}{})",
+                  worst->name, worst->value, std::abs(worst->z), names, worst->name));
+}
 
 }  // namespace
 
@@ -65,6 +85,7 @@ void AddWarnings(const FitOptions& options, double pull, double median_sd_depth,
   }
   if (!undetermined.empty()) warn("the data do not determine" + undetermined);
   if (!negative.empty()) warn("estimated below 0 and set to 0:" + negative);
+  WarnOfHeld(result);
   const double used = static_cast<double>(result->rows + result->rows_mixed);
   const double clamped = static_cast<double>(result->rows_clamped + result->rows_mixed);
   if (clamped > kTooManyClamped * used) {

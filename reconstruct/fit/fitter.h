@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // One fit in the making (fit.h): what its stages share. The rows of the regression and its solution
-// (fit.cc), a goal where one is called for (fitter_goal.cc), what depth errors do (fitter_depth.cc)
-// and what is reported (fitter_summary.cc).
+// (fit.cc), a goal where one is called for (fitter_goal.cc), whether what is held fixed should be
+// (fitter_held.cc), what depth errors do (fitter_depth.cc) and what is reported
+// (fitter_summary.cc).
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_FITTER_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_FITTER_H_
@@ -17,6 +18,7 @@
 #include "reconstruct/fit/flock_terms.h"
 #include "reconstruct/fit/motion_rows.h"
 #include "reconstruct/fit/observed_flock.h"
+#include "reconstruct/fit/state_space.h"
 #include "reconstruct/fit/whitened_fit.h"
 
 namespace flocklift::internal {
@@ -42,6 +44,13 @@ class Fitter {
   void ChooseMethod();
   // From the regression's estimate, which it replaces, and the other parameters as given.
   void EstimateStates(WhitenedFit* fit);
+  // Those of these names that are not free, but could be.
+  std::vector<std::string> HeldOf(const std::vector<std::string>& names) const;
+  // How well the values of what is held agree with the motion: by the score of the likelihood, or
+  // by a regression in which they are free.
+  void ScoreHeldParameters(const StateSpaceOptions& options, const StateSpaceFit& states,
+                           const FilterInput& input);
+  void TestHeldWeights();
   // Without the parameters that are none.
   std::vector<double> WeightsOf(const std::vector<double>& theta) const;
   void ChooseWhitening();

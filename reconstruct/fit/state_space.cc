@@ -21,6 +21,7 @@ constexpr double kFirstDifference = 1e-6;  // of an unknown, before its sd is kn
 constexpr double kDifference = 0.01;       // ... of its sd, afterwards
 constexpr double kSmallVariance = 1e-3;    // s0^2, of how far the noise moves in a frame
 constexpr double kNothing = 1e-12;         // an information below this share of the others'
+constexpr double kUnseen = 1e-6;           // ... of a parameter's own, beside the others
 constexpr int kHalvings = 12;
 
 Vector3 ValueOf(const Innovation& i) { return {i.value[0], i.value[1], i.value[2]}; }
@@ -72,6 +73,38 @@ class Scoring {
     }
     Describe(sweep, &fit);
     return fit;
+  }
+
+  // At `start` and this noise: of the parameters from `first_held` on.
+  std::vector<HeldScore> Score(const FlockNoise& noise, std::size_t first_held) {
+    phi_[p_] = std::log(2 * noise.diffusion);
+    phi_[p_ + 1] = std::max(lowest_, std::log(noise.position_variance + smallest_));
+    const FilterSweep sweep = SweepAt(phi_);
+    Linearize(sweep);
+    Step();  // by differences of fitting size
+    Linearize(sweep);
+    Step();
+    std::vector<Eigen::Index> others, held;
+    for (const Eigen::Index p : Used()) {
+      const auto at = static_cast<std::size_t>(p);
+      (at >= first_held && at < p_ ? held : others).push_back(p);
+    }
+    // Of what the others cannot do instead.
+    const Eigen::MatrixXd mine = information_(held, others);
+    const auto others_information =
+        Eigen::MatrixXd(information_(others, others)).completeOrthogonalDecomposition();
+    const Eigen::VectorXd score =
+        score_(held) - mine * others_information.solve(Eigen::VectorXd(score_(others)));
+    const Eigen::MatrixXd information =
+        information_(held, held) - mine * others_information.solve(mine.transpose());
+    std::vector<HeldScore> scores(p_ - first_held);
+    for (std::size_t k = 0; k < held.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      if (!(information(i, i) > kUnseen * information_(held[k], held[k]))) continue;
+      scores[static_cast<std::size_t>(held[k]) - first_held] = {
+          .z = -score[i] / std::sqrt(information(i, i)), .change = -score[i] / information(i, i)};
+    }
+    return scores;
   }
 
  private:
@@ -255,6 +288,16 @@ StateSpaceFit FitStateSpace(const StateSpaceOptions& options, const ProcessModel
     return none;
   }
   return Scoring(options, model, start, input).Run();
+}
+
+std::vector<HeldScore> ScoreHeld(const StateSpaceOptions& options, const ProcessModel& model,
+                                 const StateSpaceFit& fit, std::span<const double> held,
+                                 const FilterInput& input) {
+  Check(fit.IsUsable() && model.free.size() == fit.estimate.size() + held.size(),
+        "a score is of the parameters after those of a fit");
+  std::vector<double> theta = fit.estimate;
+  theta.insert(theta.end(), held.begin(), held.end());
+  return Scoring(options, model, theta, input).Score(fit.noise, fit.estimate.size());
 }
 
 }  // namespace flocklift

@@ -12,6 +12,7 @@
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_STATE_SPACE_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_STATE_SPACE_H_
 
+#include <span>
 #include <vector>
 
 #include "reconstruct/fit/flock_filter.h"
@@ -49,6 +50,18 @@ struct StateSpaceFit {
 // Starts from `start` (p values). The same at any number of threads.
 StateSpaceFit FitStateSpace(const StateSpaceOptions& options, const ProcessModel& model,
                             const std::vector<double>& start, const FilterInput& input);
+
+// What the likelihood says of a parameter that a fit held at its value.
+struct HeldScore {
+  double z = 0;       // its score in sd (Rao 1948): N(0, 1) where the value is right; 0: unfelt
+  double change = 0;  // that it asks for, to first order
+};
+
+// Of the last parameters of `model`, held at `held`, where all others, noise included, are at
+// `fit`'s estimates, which were made with these values: what they would gain by moving too.
+std::vector<HeldScore> ScoreHeld(const StateSpaceOptions& options, const ProcessModel& model,
+                                 const StateSpaceFit& fit, std::span<const double> held,
+                                 const FilterInput& input);
 
 }  // namespace flocklift
 

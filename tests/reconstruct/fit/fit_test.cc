@@ -238,6 +238,30 @@ TEST(Fit, RadiiThroughTheirTapersTogetherWithTheWeights) {
   EXPECT_NEAR(result.noise_sd, 1, 0.1);
 }
 
+// With what is held at the truth no word of it; with what is held elsewhere, its name.
+TEST(Fit, WhatIsHeldAgainstTheMotionIsNamed) {
+  const Trajectories seen = FlyLinearFlock(4, 1500).seen;
+  FitProblem problem;
+  problem.model.name = "linear";
+  problem.free = {"alignment"};
+  for (const FitMethod method : {FitMethod::kStateSpace, FitMethod::kErrorsInVariables}) {
+    problem.method = method;
+    problem.model.parameters = {{"cohesion", LinearFlock::kCohesion}};
+    const FitResult right = Fit(problem, seen);
+    ASSERT_EQ(right.held.size(), 1U);
+    EXPECT_EQ(right.held[0].name, "cohesion");
+    EXPECT_LT(std::abs(right.held[0].z), 3.5);
+    EXPECT_FALSE(Warns(right, "is held at"));
+    problem.model.parameters = {{"cohesion", 0}};
+    const FitResult wrong = Fit(problem, seen);
+    EXPECT_GT(wrong.held.at(0).z, 5);
+    EXPECT_TRUE(Warns(wrong, "cohesion is held at 0, and the motion speaks against that"));
+    EXPECT_TRUE(Warns(wrong, "--free alignment,cohesion"));
+  }
+  problem.free = {"alignment", "cohesion"};
+  EXPECT_TRUE(Fit(problem, seen).held.empty());
+}
+
 TEST(Fit, ARadiusThatNobodyCrossesIsNotDetermined) {
   Scene scene = SmoothScene(3);
   scene.duration = 1.5;

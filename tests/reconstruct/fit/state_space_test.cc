@@ -81,6 +81,39 @@ TEST(StateSpace, IntervalsCoverOverShortRuns) {
   EXPECT_GT(squares / intervals, 0.4);
 }
 
+// What is held at its true value is contradicted by about one sd, over seeds, and what is held
+// beside it by as much as a fit in which it is free says.
+TEST(StateSpace, TheScoreOfAHeldParameterIsItsDistanceInSd) {
+  ModelSpec model;
+  model.name = "linear";
+  const auto score = [&](const Trajectories& seen, double held) {
+    model.parameters["cohesion"] = held;
+    const FilterInput input = InputOf(seen);
+    const StateSpaceFit fit = FitStateSpace({}, MakeProcessModel(model, {"alignment"}), {0}, input);
+    const double values[] = {held};
+    return ScoreHeld({}, MakeProcessModel(model, {"alignment", "cohesion"}), fit, values, input)
+        .at(0);
+  };
+  double squares = 0;
+  constexpr int kSeeds = 12;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    squares += std::pow(
+        score(WithNoise(FlyLinearFlock(seed, 300, 8).seen, 1e-4, seed), LinearFlock::kCohesion).z,
+        2);
+  }
+  EXPECT_GT(squares, 0.25 * kSeeds);
+  EXPECT_LT(squares, 2.5 * kSeeds);
+  const Trajectories seen = FlyLinearFlock(3, 800).seen;
+  const StateSpaceFit both = Fit(seen);
+  const HeldScore beside = score(seen, both.estimate[0] + 2 * both.sd[0]);
+  EXPECT_NEAR(beside.z, -2, 0.4);
+  EXPECT_NEAR(beside.change, -2 * both.sd[0], 0.4 * both.sd[0]);
+  EXPECT_LT(score(seen, 0).change, 2 * LinearFlock::kCohesion);
+  EXPECT_GT(score(seen, 0).z, 8);
+  EXPECT_THROW(ScoreHeld({}, Linear(), both, std::vector<double>{1.0}, InputOf(seen)),
+               std::invalid_argument);
+}
+
 TEST(StateSpace, GapsAndLateComersCostAccuracyNotTruth) {
   const LinearFlock flock = FlyLinearFlock(5);
   Trajectories holed = WithNoise(flock.seen, 1e-4, 3);
