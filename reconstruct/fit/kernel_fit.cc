@@ -3,6 +3,8 @@
 
 #include "reconstruct/fit/kernel_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -156,6 +158,21 @@ double Bend(const FittedKernel& kernel, double r) {
          (step * step);
 }
 
+// Of the pairs, those at whose distance the 95 % band leaves 0 out.
+double ShareBeyondZero(const FittedKernel& kernel) {
+  double beyond = 0, all = 0;
+  const std::size_t last = kernel.points.size() - 1;
+  for (std::size_t k = 0; k <= last; ++k) {
+    const KernelPoint& point = kernel.points[k];
+    const double width =
+        kernel.points[std::min(k + 1, last)].distance - kernel.points[k > 0 ? k - 1 : 0].distance;
+    const double pairs = point.density * width;
+    all += pairs;
+    if (std::abs(point.value) > 1.96 * point.sd) beyond += pairs;
+  }
+  return all > 0 ? beyond / all : 0;
+}
+
 // Where a spline on its own, all else known, would be less certain than this share of the kernel's
 // height, the data say nothing by themselves: what the band knows there is that kernels are smooth.
 constexpr double kLoneSd = 0.5;
@@ -190,6 +207,27 @@ void AddPoints(const PairDensity& pairs, const Eigen::VectorXd& information, Fit
     KernelPoint& point = kernel->points[k];
     point.known = point.density > kRare * mean_density && 1.96 * point.sd < height &&
                   lone[k] < kLoneSd * height;
+  }
+}
+
+// A kernel that was not asked for: is it there all the same? By a fit of both.
+constexpr double kContradicted = 0.5;  // share of the pairs whose band leaves 0 out
+
+void WarnOfLeftOut(const KernelFitOptions& options, const std::vector<Trajectories>& flocks,
+                   double fps, std::uint64_t seed, int threads, KernelFit* fit) {
+  if (options.order != 2 || fit->kernels.size() != 1) return;
+  KernelFitOptions both = options;
+  both.kernels = {};
+  const KernelFit whole = FitKernels(both, flocks, fps, seed, threads);
+  if (!whole.IsUsable()) return;
+  for (const FittedKernel& kernel : whole.kernels) {
+    if (kernel.name == fit->kernels[0].name) continue;
+    fit->left_out = {.name = kernel.name, .share = ShareBeyondZero(kernel)};
+    if (fit->left_out.share < kContradicted) continue;
+    fit->warnings.push_back(fmt::format(
+        "{} is left out, and a fit of both finds it for {:.0f} % of the pairs, so that what is "
+        "fitted may be wrong: free it too (--free attraction,alignment)",
+        kernel.name, 100 * fit->left_out.share));
   }
 }
 
@@ -327,6 +365,7 @@ KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajecto
   fit.effective = evidence.effective;
   fit.converged = evidence.converged;
   if (!fit.converged) fit.warnings.emplace_back("the search for noise and smoothness did not end");
+  WarnOfLeftOut(options, flocks, fps, seed, threads, &fit);
   const bool depths = std::any_of(flocks.begin(), flocks.end(),
                                   [](const Trajectories& flock) { return flock.has_sd_depth; });
   if (depths) {

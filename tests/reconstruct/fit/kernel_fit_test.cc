@@ -359,6 +359,30 @@ TEST(KernelFit, FlagsDistancesWithoutPairs) {
   EXPECT_GT(near, 0);
 }
 
+// Of one kernel alone: a word when the other is there too, none when it is not.
+TEST(KernelFit, NamesAKernelThatIsLeftOutAndActs) {
+  KernelFlock flock;
+  flock.order = 2;
+  flock.frames = 80;
+  flock.substeps = 10;
+  flock.alignment = [](double r) { return 0.3 * std::exp(-r); };
+  flock.diffusion = 1e-3;
+  KernelFitOptions options = Small(2);
+  options.kernels = {"alignment"};
+  for (const bool attracts : {true, false}) {
+    flock.attraction = [attracts](double r) { return attracts ? 0.4 * std::exp(-0.5 * r) : 0.0; };
+    const KernelFit fit = Fit(options, {FlyKernels(flock, 1), FlyKernels(flock, 2)}, 20);
+    ASSERT_TRUE(fit.IsUsable());
+    EXPECT_EQ(fit.kernels.size(), 1U);
+    EXPECT_EQ(fit.left_out.name, "attraction");
+    const bool named = std::any_of(
+        fit.warnings.begin(), fit.warnings.end(),
+        [](const std::string& text) { return text.starts_with("attraction is left out"); });
+    EXPECT_EQ(named, attracts) << fit.left_out.share;
+  }
+  EXPECT_TRUE(Fit(Small(2), {FlyKernels(flock, 1)}, 20).left_out.name.empty());
+}
+
 TEST(KernelFit, SaysWhyItCannot) {
   const KernelFlock flock{
       .order = 1, .animals = 3, .frames = 30, .attraction = Curved, .alignment = {}};
