@@ -8,6 +8,12 @@
 //   information I_pr = sum  eps_p' S^-1 eps_r + tr(S^-1 S_p S^-1 S_r) / 2
 // eps_p, S_p derivatives by differences of whole sweeps, which see the gain's change too. The sd
 // are those of I^-1. Where s^2 goes to 0 it stays there and is no unknown any more.
+//
+// For a flock that has forgotten its start, I of a drag gamma is (animals - 1) 3 T / (2 gamma), as
+// of a damped velocity that is known without error (of the reference flock, gamma = 20 alignment,
+// 2.4 %): no time is lost by having positions only. Over 516 seeds of that flock the errors are
+// 1.03 times the sd, and 95 % intervals cover 95.2 % (cohesion) and 93.2 % (alignment); over 200 of
+// them between 90 and 95 %, by chance, and least squares on the true velocities no less.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_STATE_SPACE_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_STATE_SPACE_H_
