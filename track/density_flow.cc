@@ -32,7 +32,9 @@ double MedianOf(std::vector<double> values) {
   return *middle;
 }
 
-// The commonest mass of a patch: that of one animal. Quarter octaves, three bins together.
+// The mass of one animal: the lowest peak of the masses of patches that is half as high as the
+// highest, as in a dense flock two together may be as common as one. Quarter octaves, three bins
+// together.
 class MassMode {
  public:
   void Add(double mass) {
@@ -40,30 +42,20 @@ class MassMode {
     ++counts_[std::min(static_cast<std::size_t>(bin), kBins - 1)];
   }
   double Mode() const {
-    std::size_t best = 1;
-    long most = 0;
+    std::array<long, kBins> sums{};
     for (std::size_t k = 1; k + 1 < kBins; ++k) {
-      const long sum = counts_[k - 1] + counts_[k] + counts_[k + 1];
-      if (sum <= most) continue;
-      most = sum;
-      best = k;
+      sums[k] = counts_[k - 1] + counts_[k] + counts_[k + 1];
     }
-    return std::exp2(0.25 * static_cast<double>(best));
+    const long most = *std::max_element(sums.begin(), sums.end());
+    std::size_t k = 1;
+    while (k + 2 < kBins && (2 * sums[k] < most || sums[k + 1] > sums[k])) ++k;
+    return std::exp2(0.25 * static_cast<double>(k));
   }
 
  private:
   static constexpr std::size_t kBins = 100;
   std::array<long, kBins> counts_{};
 };
-
-// The contrast of what was found, as a picture.
-cv::Mat ContrastOf(const BlobFrame& found, int width, int height) {
-  cv::Mat picture(height, width, CV_32F, cv::Scalar(0));
-  for (const BlobPixel& p : found.pixels) {
-    picture.at<float>(static_cast<int>(p.y), static_cast<int>(p.x)) = p.contrast;
-  }
-  return picture;
-}
 
 class Meter {
  public:
@@ -143,6 +135,7 @@ DensityFlow MeasureDensityFlow(const DetectorOptions& options, const std::filesy
   Check(stride >= 2, "pairs of frames need a stride of 2 at least");
   DetectorOptions all = options;
   all.min_area = 1;
+  if (all.window <= 0) all.window = kCell;  // amid a dense flock, sky is only farther away
   Detector detector(all);
   {
     VideoSource start(path);
@@ -163,7 +156,9 @@ DensityFlow MeasureDensityFlow(const DetectorOptions& options, const std::filesy
     if (phase <= 1) {
       const BlobFrame found = detector.Detect(frame, image);
       for (const Blob& blob : found.blobs) masses.Add(blob.mass);
-      const cv::Mat contrast = ContrastOf(found, image.width, image.height);
+      // Not that of the blobs: where a flock is dense, patches are larger than an animal can be.
+      std::vector<float> values = detector.ContrastOf(image);
+      const cv::Mat contrast = cv::Mat(image.height, image.width, CV_32F, values.data()).clone();
       if (phase == 1) meter.Add(frame - 1, now, contrast);
       now = contrast;
     }

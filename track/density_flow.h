@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What can be said of animals that cannot be told apart: how many there are and where they go, by
-// square cells. The count of a cell is its contrast over that of one animal, the commonest mass of
-// a patch; animals that hide each other make it too low. The velocity is the shift at which two
+// square cells. The count of a cell is its contrast over that of one animal, a common mass of a
+// patch; animals that hide each other make it too low. The velocity is the shift at which two
 // consecutive frames of a cell correlate best (phase correlation, Kuglin and Hines 1975), as in
 // particle image velocimetry.
 

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -69,22 +68,22 @@ TEST_F(DensityFlowTest, NoTracksAreInvented) {
 TEST_F(DensityFlowTest, CountsAndFlow) {
   const DensityFlow flow = MeasureDensityFlow({}, folder_);
   // Birds that hide each other are counted as fewer.
-  EXPECT_GT(flow.median_count, 0.5 * kBirds);
-  EXPECT_LT(flow.median_count, 0.8 * kBirds);
+  EXPECT_GT(flow.median_count, 0.7 * kBirds);
+  EXPECT_LT(flow.median_count, 1.05 * kBirds);
   EXPECT_NEAR(flow.median_speed, std::hypot(kVelocity.x, kVelocity.y), 0.3);
-  EXPECT_GT(flow.polarisation, 0.8);
-  // Of the cells that hold many, each by itself: the birds' own ways blur a few of them.
-  std::vector<double> u, v;
+  EXPECT_GT(flow.polarisation, 0.95);
+  // Where the flock is densest, too: its middle is one patch, larger than an animal can be.
+  double count = 0;
+  Vec2d sum{};
   for (const FlowCell& cell : flow.cells) {
-    if (!cell.velocity || cell.count < 40) continue;
-    u.push_back(cell.velocity->x);
-    v.push_back(cell.velocity->y);
+    if (!cell.velocity) continue;
+    count += cell.count;
+    sum.x += cell.count * cell.velocity->x;
+    sum.y += cell.count * cell.velocity->y;
   }
-  ASSERT_GT(u.size(), 20u);
-  std::sort(u.begin(), u.end());
-  std::sort(v.begin(), v.end());
-  EXPECT_NEAR(u[u.size() / 2], kVelocity.x, 0.15);
-  EXPECT_NEAR(v[v.size() / 2], kVelocity.y, 0.15);
+  ASSERT_GT(count, 0);
+  EXPECT_NEAR(sum.x / count, kVelocity.x, 0.15);
+  EXPECT_NEAR(sum.y / count, kVelocity.y, 0.15);
 }
 
 TEST_F(DensityFlowTest, WritesATable) {

@@ -142,6 +142,24 @@ void Detector::LearnPolarity(std::span<const GrayImage> images, ThreadPool* pool
   bright_ = !dark_;
 }
 
+std::vector<float> Detector::ContrastOf(const GrayImage& image) {
+  std::vector<float> contrast(image.pixels.size(), 0);
+  Scratch& scratch = scratch_.front();
+  for (const bool dark : {true, false}) {
+    if (!(dark ? dark_ : bright_)) continue;
+    const LocalBackground background = MarkCandidates(image, dark, &scratch);
+    const LevelTable level(background, image.width, image.height);
+    for (int v = 0; v < image.height; ++v) {
+      const std::uint8_t *row = image.Row(v), *mark = scratch.mask.Row(v);
+      float* out = contrast.data() + static_cast<std::size_t>(v) * image.width;
+      for (int u = 0; u < image.width; ++u) {
+        if (mark[u] > 0) out[u] = std::abs(level.At(u, v) - static_cast<float>(row[u]));
+      }
+    }
+  }
+  return contrast;
+}
+
 void Detector::LookForStill(const GrayImage& image, StillLooks* looks) {
   Scratch& scratch = scratch_.front();
   const LocalBackground background = MarkCandidates(image, dark_, &scratch);

@@ -67,6 +67,10 @@ class Detector {
   void LookForStill(const GrayImage& image, StillLooks* looks);
   void TakeOut(StillPicture still);
 
+  // By how much each pixel differs from the sky, by the sign of the animals; 0 where that is less
+  // than a candidate's. Patches count that are too large for an animal, unlike those of blobs.
+  std::vector<float> ContrastOf(const GrayImage& image);
+
   BlobFrame Detect(int frame, const GrayImage& image);
 
   // The same for consecutive frames, several at a time. What is learned on the way changes once in
