@@ -16,6 +16,7 @@
 #include "simulate/core/text.h"
 #include "track/detect/background.h"
 #include "track/detect/components.h"
+#include "track/detect/gray_view.h"
 #include "track/detect/patch_blobs.h"
 
 namespace flocklift {
@@ -29,13 +30,7 @@ constexpr double kWindowOverLength = 3;     // of the local mean, to the usual l
 constexpr double kLongestOverWindow = 1.2;  // a longer blob is no animal
 constexpr double kFirstWindowOverHeight = 1.0 / 8;
 constexpr std::size_t kRemembered = 600;    // blobs
-constexpr int kSummaryInterval = 8;         // frames
 constexpr std::size_t kPolarityStride = 3;  // of the frames to learn from
-
-cv::Mat View(const GrayImage& image) {
-  return cv::Mat(image.height, image.width, CV_8UC1,
-                 const_cast<std::uint8_t*>(image.pixels.data()));
-}
 
 void Fit(int width, int height, GrayImage* image) {
   if (image->width != width || image->height != height) *image = GrayImage(width, height);
@@ -140,48 +135,6 @@ void Detector::LearnPolarity(std::span<const GrayImage> images, ThreadPool* pool
   for (std::size_t k = 0; k < looks; ++k) (k % 2 == 0 ? dark_energy : bright_energy) += energies[k];
   dark_ = dark_energy >= bright_energy;
   bright_ = !dark_;
-}
-
-std::vector<float> Detector::ContrastOf(const GrayImage& image) {
-  std::vector<float> contrast(image.pixels.size(), 0);
-  Scratch& scratch = scratch_.front();
-  for (const bool dark : {true, false}) {
-    if (!(dark ? dark_ : bright_)) continue;
-    const LocalBackground background = MarkCandidates(image, dark, &scratch);
-    const LevelTable level(background, image.width, image.height);
-    for (int v = 0; v < image.height; ++v) {
-      const std::uint8_t *row = image.Row(v), *mark = scratch.mask.Row(v);
-      float* out = contrast.data() + static_cast<std::size_t>(v) * image.width;
-      for (int u = 0; u < image.width; ++u) {
-        if (mark[u] > 0) out[u] = std::abs(level.At(u, v) - static_cast<float>(row[u]));
-      }
-    }
-  }
-  return contrast;
-}
-
-void Detector::LookForStill(const GrayImage& image, StillLooks* looks) {
-  Scratch& scratch = scratch_.front();
-  const LocalBackground background = MarkCandidates(image, dark_, &scratch);
-  looks->Add(dark_, scratch.smooth, background, scratch.mask);
-}
-
-void Detector::TakeOut(StillPicture still) {
-  still_ = std::move(still);
-  recent_.clear();
-  usual_length_ = usual_contrast_ = 0;
-  frames_since_summary_ = 0;
-}
-
-// Whether what stands still is still there.
-void Detector::FollowStill(const GrayImage& image) {
-  if (still_.empty()) return;
-  Scratch& scratch = scratch_.front();
-  still_.TakeOut(dark_, image, &scratch.cleaned);
-  const LocalBackground background = MarkCandidates(scratch.cleaned, dark_, &scratch);
-  cv::Mat smooth = View(scratch.smooth);
-  cv::GaussianBlur(View(image), smooth, cv::Size(3, 3), 0);
-  still_.Follow(dark_, scratch.smooth, background, kSummaryInterval);
 }
 
 BlobFrame Detector::Detect(int frame, const GrayImage& image) {
@@ -317,30 +270,6 @@ void Detector::Remember(const BlobFrame& found) {
   usual_length_ = MassQuantile(&scratch, 0.8, [this](auto* values) {
     for (const Trace& t : recent_) values->push_back({t.length, t.mass});
   });
-}
-
-void Detector::Save(StateWriter* state) const {
-  state->Put(dark_);
-  state->Put(bright_);
-  state->Put(usual_length_);
-  state->Put(usual_contrast_);
-  state->Put(frames_since_summary_);
-  state->Put(static_cast<std::uint64_t>(recent_.size()));
-  for (const Trace& trace : recent_) state->Put(trace);
-  still_.Save(state);
-}
-
-void Detector::Load(StateReader* state) {
-  state->Take(&dark_);
-  state->Take(&bright_);
-  state->Take(&usual_length_);
-  state->Take(&usual_contrast_);
-  state->Take(&frames_since_summary_);
-  std::uint64_t count = 0;
-  state->Take(&count);
-  recent_.resize(count);
-  for (Trace& trace : recent_) state->Take(&trace);
-  still_.Load(state);
 }
 
 }  // namespace flocklift

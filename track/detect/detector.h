@@ -88,6 +88,8 @@ class Detector {
   double usual_contrast() const { return usual_contrast_; }  // [grey levels]
 
  private:
+  static constexpr int kSummaryInterval = 8;  // frames
+
   // What is remembered of a recent blob.
   struct Trace {
     double mass = 0, peak = 0, length = 0;

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "track/detect/gray_view.h"
 
 namespace flocklift {
 namespace {
@@ -16,11 +19,6 @@ constexpr double kMargin = 1.1;     // on the contrast: light changes, leaves go
 constexpr int kBlock = 16;          // side [px]
 constexpr double kLeastSeen = 0.2;  // of a block's seeds
 constexpr int kForget = 120;        // frames
-
-cv::Mat View(const GrayImage& image) {
-  return cv::Mat(image.height, image.width, CV_8UC1,
-                 const_cast<std::uint8_t*>(image.pixels.data()));
-}
 
 void Widen(int reach, GrayImage* image) {
   cv::Mat view = View(*image);
