@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 

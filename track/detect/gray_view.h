@@ -6,18 +6,16 @@
 #ifndef FLOCKLIFT_TRACK_DETECT_GRAY_VIEW_H_
 #define FLOCKLIFT_TRACK_DETECT_GRAY_VIEW_H_
 
-#include <cstdint>
-#include <opencv2/core.hpp>
-
 #include "track/gray_image.h"
+
+namespace cv {
+class Mat;
+}
 
 namespace flocklift {
 
 // What writes to it writes to the picture, which must outlive it.
-inline cv::Mat View(const GrayImage& image) {
-  return cv::Mat(image.height, image.width, CV_8UC1,
-                 const_cast<std::uint8_t*>(image.pixels.data()));
-}
+cv::Mat View(const GrayImage& image);
 
 }  // namespace flocklift
 
