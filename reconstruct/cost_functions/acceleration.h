@@ -21,7 +21,12 @@ struct AccelerationError {
   // c: control points k-1 .. k+1, each (X, Y, L).
   template <typename T>
   void operator()(const T* c, T* error) const {
-    const Vec3<T> a = AccelerationOverDepth(StateAtKnot(c, rate), camera);
+    Of(StateAtKnot(c, rate), error);
+  }
+
+  template <typename T>
+  void Of(const PathState<T>& q, T* error) const {
+    const Vec3<T> a = AccelerationOverDepth(q, camera);
     error[0] = reference_depth * a.x;
     error[1] = reference_depth * a.y;
     error[2] = reference_depth * a.z;

@@ -23,8 +23,13 @@ struct LevelFlightError {
   // c: control points k-1 .. k+1, each (X, Y, L).
   template <typename T>
   void operator()(const T* c, T* error) const {
+    Of(StateAtKnot(c, rate), error);
+  }
+
+  template <typename T>
+  void Of(const PathState<T>& q, T* error) const {
     using std::sqrt;
-    const Vec3<T> w = VelocityOverDepth(StateAtKnot(c, rate), camera);
+    const Vec3<T> w = VelocityOverDepth(q, camera);
     error[0] = (w.x * up_in_cam.x + w.y * up_in_cam.y + w.z * up_in_cam.z) /
                sqrt(Dot(w, w) + softening * softening);
   }

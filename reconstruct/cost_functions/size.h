@@ -40,9 +40,14 @@ struct SizeError {
   template <typename T>
   void operator()(const T* c, const T& bias, const T& ratio, const T& log_trunk, const T& log_up,
                   const T& lean, T* error) const {
+    Of(StateAtKnot(c, rate), bias, ratio, log_trunk, log_up, lean, error);
+  }
+
+  template <typename T>
+  void Of(const PathState<T>& q, const T& bias, const T& ratio, const T& log_trunk, const T& log_up,
+          const T& lean, T* error) const {
     using std::exp;
     using std::log;
-    const PathState<T> q = StateAtKnot(c, rate);
     const Vec3<T> w = VelocityOverDepth(q, camera);
     const T speed2 = Dot(w, w) + softening * softening;
     const auto seen = [&q](const Vec3<T>& a) {  // |P a|^2

@@ -23,8 +23,12 @@ struct SpeedError {
   // c: control points k-1 .. k+1, each (X, Y, L); log_mean_speed in log m/s.
   template <typename T>
   void operator()(const T* c, const T& log_mean_speed, T* error) const {
+    Of(StateAtKnot(c, rate), log_mean_speed, error);
+  }
+
+  template <typename T>
+  void Of(const PathState<T>& q, const T& log_mean_speed, T* error) const {
     using std::log;
-    const PathState<T> q = StateAtKnot(c, rate);
     const Vec3<T> w = VelocityOverDepth(q, camera);
     error[0] = q.l + 0.5 * log(Dot(w, w) + softening * softening) - log_mean_speed;
   }

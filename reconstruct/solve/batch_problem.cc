@@ -35,31 +35,45 @@ struct Feature {
   }
 };
 
-// Evaluates an error functor of three control points and `Extra` further scalars, whose places in
-// the border are `places`.
-template <int Size, int Extra, typename Error>
-std::array<Feature, Size> Evaluate(bool derivatives, const double* path,
+// Evaluates an error functor of a path's state at a knot and `Extra` further scalars, whose places
+// in the border are `places`. The state has `Orders` times three entries that count: x/z, y/z, log
+// z, their slopes, and their curves. Derivatives by the few of them are cheaper than by the control
+// points, in which the state is linear (path.h).
+template <int Size, int Orders, int Extra, typename Error>
+std::array<Feature, Size> Evaluate(bool derivatives, const double* path, double rate,
                                    const std::array<double, Extra>& extra,
                                    const std::array<int, Extra>& places, const Error& error) {
   std::array<Feature, Size> features;
+  const PathState<double> q = StateAtKnot(path, rate);
   if (!derivatives) {
     std::array<double, Size> values;
-    error(path, extra.data(), values.data());
+    error(q, extra.data(), values.data());
     for (int a = 0; a < Size; ++a) features[a].value = values[a];
     return features;
   }
-  using Jet = ceres::Jet<double, kPathWidth + Extra>;
-  std::array<Jet, kPathWidth> c;
-  for (int a = 0; a < kPathWidth; ++a) c[a] = Jet(path[a], a);
+  constexpr int kState = 3 * Orders;
+  using Jet = ceres::Jet<double, kState + Extra>;
+  PathState<Jet> state{Jet(q.x, 0),  Jet(q.y, 1), Jet(q.l, 2), Jet(q.dx, 3), Jet(q.dy, 4),
+                       Jet(q.dl, 5), Jet(q.ddx),  Jet(q.ddy),  Jet(q.ddl)};
+  if constexpr (Orders == 3) {
+    state.ddx.v[6] = state.ddy.v[7] = state.ddl.v[8] = 1;
+  }
   std::array<Jet, Extra> x;
-  for (int a = 0; a < Extra; ++a) x[a] = Jet(extra[a], kPathWidth + a);
+  for (int a = 0; a < Extra; ++a) x[a] = Jet(extra[a], kState + a);
   std::array<Jet, Size> values;
-  error(c.data(), x.data(), values.data());
+  error(state, x.data(), values.data());
+  const double rate2 = rate * rate;
+  const std::array<std::array<double, 3>, 3> of_control = {
+      {{1.0 / 6, 4.0 / 6, 1.0 / 6}, {-0.5 * rate, 0, 0.5 * rate}, {rate2, -2 * rate2, rate2}}};
   for (int a = 0; a < Size; ++a) {
     features[a].value = values[a].a;
-    for (int b = 0; b < kPathWidth; ++b) features[a].path[b] = values[a].v[b];
+    for (int order = 0; order < Orders; ++order) {
+      for (int b = 0; b < kPathWidth; ++b) {
+        features[a].path[b] += of_control[order][b / 3] * values[a].v[3 * order + b % 3];
+      }
+    }
     for (int b = 0; b < Extra; ++b) {
-      features[a].border[b] = {places[b], values[a].v[kPathWidth + b]};
+      features[a].border[b] = {places[b], values[a].v[kState + b]};
     }
     features[a].border_count = Extra;
   }
@@ -131,9 +145,9 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
 
   const AccelerationError acceleration{
       .rate = rate, .reference_depth = bird.reference_depth, .camera = camera};
-  const auto a = Evaluate<3, 0>(
-      derivatives, c, std::array<double, 0>{}, std::array<int, 0>{},
-      [&](const auto* path, const auto*, auto* error) { acceleration(path, error); });
+  const auto a = Evaluate<3, 3, 0>(
+      derivatives, c, rate, std::array<double, 0>{}, std::array<int, 0>{},
+      [&](const auto& q, const auto*, auto* error) { acceleration.Of(q, error); });
   for (int axis = 0; axis < 3; ++axis) {
     Feature feature = a[axis];
     feature.Subtract(model.turn, time, axis, shared);
@@ -142,17 +156,18 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
 
   const SpeedError speed{.rate = rate, .softening = bird.softening, .camera = camera};
   take(Term::kSpeed, 0,
-       Evaluate<1, 1>(
-           derivatives, c, std::array{bird.own[kOwnLogSpeed]}, std::array<int, 1>{kOwnLogSpeed},
-           [&](const auto* path, const auto* x, auto* error) { speed(path, x[0], error); })[0]);
+       Evaluate<1, 2, 1>(
+           derivatives, c, rate, std::array{bird.own[kOwnLogSpeed]},
+           std::array<int, 1>{kOwnLogSpeed},
+           [&](const auto& q, const auto* x, auto* error) { speed.Of(q, x[0], error); })[0]);
 
   if (model.use_climb && model.up_in_cam) {
     const LevelFlightError level{
         .rate = rate, .softening = bird.softening, .up_in_cam = *model.up_in_cam, .camera = camera};
     take(
         Term::kClimb, 0,
-        Evaluate<1, 0>(derivatives, c, std::array<double, 0>{}, std::array<int, 0>{},
-                       [&](const auto* path, const auto*, auto* error) { level(path, error); })[0]);
+        Evaluate<1, 2, 0>(derivatives, c, rate, std::array<double, 0>{}, std::array<int, 0>{},
+                          [&](const auto& q, const auto*, auto* error) { level.Of(q, error); })[0]);
   }
   if (model.use_size && bird.size[knot]) {
     const SizeError size{.rate = rate,
@@ -163,14 +178,14 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
                          .curve = bird.curve[knot],
                          .camera = camera};
     take(Term::kSize, 0,
-         Evaluate<1, 5>(
-             derivatives, c,
+         Evaluate<1, 2, 5>(
+             derivatives, c, rate,
              std::array{bird.own[kOwnSizeBias], shared[kSizeRatio], shared[kLogTrunk],
                         shared[kLogUp], shared[kLean]},
              std::array<int, 5>{kOwnSizeBias, kOwnUnknowns + kSizeRatio, kOwnUnknowns + kLogTrunk,
                                 kOwnUnknowns + kLogUp, kOwnUnknowns + kLean},
-             [&](const auto* path, const auto* x, auto* error) {
-               size(path, x[0], x[1], x[2], x[3], x[4], error);
+             [&](const auto& q, const auto* x, auto* error) {
+               size.Of(q, x[0], x[1], x[2], x[3], x[4], error);
              })[0]);
   }
   if (model.use_depth && CountsForDepth(model, bird, knot)) {
