@@ -166,6 +166,7 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
     Check(name != kKernelsModel || kernels.order == 2,
           "--compare kernels needs --order 2: the other models make accelerations");
   }
+  CheckComparable(command.compare);
   Stage stage("fit", common);
   stage.options() = {{"model", command.model},  {"free", command.free}, {"set", command.set},
                      {"walls", command.walls},  {"goal", command.goal}, {"method", command.method},
@@ -268,7 +269,8 @@ void AddFitCommand(CLI::App& app) {
          "(regression with instruments), differences (least squares on plain differences: "
          "badly biased, for comparison), noise-field (scale and gain of a swarm's curl noise, "
          "its seed unknown), statistics (simulations that move as the data do; models "
-         "without usable derivatives, as bswarm), or auto, which never takes differences")
+         "without usable derivatives: bswarm, lin, opensteer), or auto, which never takes "
+         "differences")
       ->check(CLI::IsMember({"auto", "state-space", "errors-in-variables", "differences",
                              "noise-field", "statistics"}))
       ->capture_default_str();
@@ -280,7 +282,8 @@ void AddFitCommand(CLI::App& app) {
          "--compare", command->compare,
          "models, separated by commas, to be fitted to all but the last part of the time "
          "too (--held-out) and compared there, with constant velocity, as a table; kernels "
-         "among them")
+         "among them; models that are fitted by statistics are flown on by the engine, which takes "
+         "as long as their fit does")
       ->delimiter(',');
   AddFlags(*sub, command->fit, "Fit");
   AddFlags(*sub, command->kernels, "Model kernels");

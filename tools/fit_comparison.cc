@@ -10,7 +10,11 @@
 #include <cstdio>
 #include <limits>
 
+#include "reconstruct/fit/flock_terms.h"
 #include "reconstruct/fit/kernel_prediction.h"
+#include "reconstruct/fit/simulated_prediction.h"
+#include "simulate/core/check.h"
+#include "simulate/flock/model.h"
 
 namespace flocklift {
 namespace {
@@ -21,11 +25,21 @@ ModelScore ScoreModel(const FitOptions& options, const FitProblem& problem, cons
                       const Trajectories& trajectories, double fps, std::uint64_t seed,
                       int threads) {
   FitProblem other = problem;
-  other.method = FitMethod::kErrorsInVariables;
-  other.free.clear();
   if (name != problem.model.name) {
     other.model = ModelSpec{.name = name, .parameters = {}, .where = "--compare", .where_of = {}};
+    other.free.clear();
   }
+  if (LinearWeights(name).empty()) {
+    other.method = FitMethod::kAuto;
+    const SimulatedPrediction flown =
+        PredictBySimulation(options, other, trajectories, fps, seed, threads);
+    ModelScore score{
+        .model = name, .weights = flown.fit.weights.size(), .r2_held_out = flown.r2, .fault = {}};
+    if (!flown.fit.IsUsable()) score.fault = StatusText(flown.fit.status);
+    return score;
+  }
+  other.method = FitMethod::kErrorsInVariables;
+  other.free.clear();
   const FitResult result = FitModel(options, other, trajectories, fps, seed, threads);
   ModelScore score{.model = name,
                    .weights = result.weights.size(),
@@ -50,12 +64,24 @@ ModelScore ScoreKernels(const FitOptions& options, const KernelFitOptions& kerne
 
 }  // namespace
 
+void CheckComparable(const std::vector<std::string>& models) {
+  for (const std::string& name : models) {
+    if (name == kKernelsModel) continue;
+    CompleteModel({.name = name, .parameters = {}, .where = "--compare", .where_of = {}});
+    const std::string why = WhyNotFlown(name);
+    if (why.empty()) continue;
+    throw InputError("--compare", 0, "model " + name + " cannot be flown from trajectories: " + why,
+                     "leave it out");
+  }
+}
+
 std::vector<ModelScore> CompareModels(const FitOptions& options, const FitProblem& problem,
                                       const KernelFitOptions& kernels,
                                       const std::vector<std::string>& models,
                                       const std::vector<Trajectories>& flocks, double fps,
                                       std::uint64_t seed, int threads) {
   if (models.empty()) return {};
+  CheckComparable(models);
   std::vector<ModelScore> scores;
   scores.push_back({.model = kConstantVelocity, .weights = 0, .r2_held_out = 0.0, .fault = {}});
   FitOptions quick = options;

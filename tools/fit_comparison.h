@@ -3,7 +3,8 @@
 //
 // Several models of the same trajectories, compared by what they predict of the time that was held
 // out of their fits: 1 - sum |y - yhat|^2 / sum |y|^2 of accelerations after it, from states before
-// each (HeldOutR2 of reconstruct/fit/fit_measures.h). Constant velocity, yhat = 0, has 0 and is the
+// each (HeldOutR2 of reconstruct/fit/fit_measures.h; of models that have no weights to regress on,
+// reconstruct/fit/simulated_prediction.h). Constant velocity, yhat = 0, has 0 and is the
 // model to beat; below it a model explains nothing.
 
 #ifndef FLOCKLIFT_TOOLS_FIT_COMPARISON_H_
@@ -27,10 +28,13 @@ struct ModelScore {
   std::string fault;  // why there is no score
 };
 
-// By errors-in-variables, each with all its weights and otherwise its defaults (the problem's
-// settings where it is the problem's model), best first, constant velocity among them; empty for
-// no names. The model `kernels` is fitted to all the flocks, every other to the first. Throws
-// InputError for a model that does not exist or has no weights.
+// Throws InputError for a model that does not exist, or that cannot be flown from trajectories.
+void CheckComparable(const std::vector<std::string>& models);
+
+// By errors-in-variables, or by the model's own default where that cannot be, each with all its
+// weights and otherwise its defaults (the problem's settings where it is the problem's model), best
+// first, constant velocity among them; empty for no names. The model `kernels` is fitted to all the
+// flocks, every other to the first. Throws as CheckComparable.
 std::vector<ModelScore> CompareModels(const FitOptions& options, const FitProblem& problem,
                                       const KernelFitOptions& kernels,
                                       const std::vector<std::string>& models,

@@ -86,6 +86,9 @@ Json AsJson(const KernelFit& fit, int order) {
                {"effective_parameters", fit.effective},
                {"intervals", fit.intervals},
                {"converged", fit.converged}};
+  if (!fit.left_out.name.empty()) {
+    json["left_out"] = {{"name", fit.left_out.name}, {"found_share_of_pairs", fit.left_out.share}};
+  }
   for (const FittedKernel& kernel : fit.kernels) {
     json["kernels"].push_back({{"name", kernel.name},
                                {"unit", kernel.Unit(order)},
@@ -119,6 +122,7 @@ void RunKernelFit(const FitCommand& command, const CommonOptions& common) {
   options.kernels = command.free;
   options.bridged_gap = command.fit.bridged_gap;
   RefuseWhatKernelsLack(command);
+  CheckComparable(command.compare);
   stage.options() = {{"model", command.model},
                      {"free", command.free},
                      {"compare", command.compare},

@@ -202,7 +202,8 @@ FitResult FitModel(const FitOptions& options, const FitProblem& problem,
     return internal::FitSwarmNoise(options, problem, trajectories, fps, threads);
   }
   if (problem.method == FitMethod::kStatistics ||
-      (problem.method == FitMethod::kAuto && problem.model.name == "bswarm")) {
+      (problem.method == FitMethod::kAuto &&
+       !internal::StatisticsParameters(problem.model).empty())) {
     return internal::FitStatistics(options, problem, trajectories, fps, seed, threads, progress);
   }
   if (problem.method == FitMethod::kNoiseField) {

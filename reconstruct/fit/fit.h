@@ -104,7 +104,7 @@ enum class FitMethod {
   kErrorsInVariables,
   kDifferences,
   kNoiseField,  // of the model swarm, and of no other
-  kStatistics,  // of any model but swarm; the default for bswarm
+  kStatistics,  // of any model but swarm; the default for bswarm, lin and opensteer
 };
 std::string NameOf(FitMethod method);  // as in the list above
 // Throws std::invalid_argument for another name.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reconstruct/fit/fit_setup.h"
+#include "reconstruct/fit/held_out.h"
 #include "reconstruct/fit/motion_rows.h"
 #include "reconstruct/fit/observed_flock.h"
 #include "simulate/core/check.h"
@@ -91,17 +92,6 @@ class Predictor {
   const FittedKernel* alignment_;
 };
 
-Trajectories Before(const Trajectories& flock, int split) {
-  Trajectories early = flock;
-  early.trajectories.clear();
-  for (const Trajectory& trajectory : flock.trajectories) {
-    Trajectory some = trajectory;
-    std::erase_if(some.points, [&](const TrajectoryPoint& p) { return p.frame >= split; });
-    if (!some.points.empty()) early.trajectories.push_back(std::move(some));
-  }
-  return early;
-}
-
 }  // namespace
 
 std::optional<double> KernelR2(const FitOptions& options, const KernelFitOptions& kernels,
@@ -141,10 +131,8 @@ KernelPrediction PredictWithKernels(const FitOptions& options, const KernelFitOp
   std::vector<Trajectories> early;
   std::vector<int> splits;
   for (const Trajectories& flock : flocks) {
-    const FrameSpan span = SpanOf(flock);
-    const int held_out = static_cast<int>(options.held_out * (span.last - span.first + 1));
-    splits.push_back(span.last - held_out + 1);
-    early.push_back(Before(flock, splits.back()));
+    splits.push_back(FirstHeldOut(flock, options.held_out));
+    early.push_back(BeforeFrame(flock, splits.back()));
   }
   KernelPrediction prediction;
   prediction.fit = FitKernels(kernels, early, fps, seed, threads);

@@ -150,8 +150,13 @@ void AddWeights(const std::vector<std::string>& free, const SimulatedFit& fit, F
 }  // namespace
 
 std::vector<std::string> StatisticsParameters(const ModelSpec& model) {
-  if (model.name != "bswarm") return {};
-  return {"w_rep", "w_ali", "w_att", "r_rep", "r_ali", "r_att"};
+  if (model.name == "bswarm") return {"w_rep", "w_ali", "w_att", "r_rep", "r_ali", "r_att"};
+  if (model.name == "lin") return {"w_sep", "d_sep", "gain"};
+  if (model.name == "opensteer") {
+    return {"separation_weight", "alignment_weight", "cohesion_weight",
+            "separation_radius", "alignment_radius", "cohesion_radius"};
+  }
+  return {};
 }
 
 FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,

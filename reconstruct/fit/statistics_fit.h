@@ -19,7 +19,8 @@
 
 namespace flocklift::internal {
 
-// What is freed when nothing is named: of bswarm the zones' weights and radii, of others nothing.
+// What is freed when nothing is named: of bswarm and opensteer the weights and radii, of lin what
+// leads to the target; of others nothing.
 std::vector<std::string> StatisticsParameters(const ModelSpec& model);
 
 FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,

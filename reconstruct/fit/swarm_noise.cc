@@ -26,21 +26,6 @@ constexpr double kManyLeftOut = 0.05;
 
 double AtAxis(const Vec3d& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-// Does nothing but the noise move an animal here?
-bool IsFree(const FitProblem& problem, double cell, const Vec3d& x) {
-  if (problem.walls) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (AtAxis(x, axis) < AtAxis(problem.walls->low, axis) + cell ||
-          AtAxis(x, axis) > AtAxis(problem.walls->high, axis) - cell) {
-        return false;
-      }
-    }
-  }
-  if (problem.goal != GoalChoice::kGiven) return true;
-  const double grid_cell = std::numbers::sqrt3 * cell;  // the way is interpolated within one
-  return Norm(x - problem.goal_position) < problem.goal_reach - grid_cell;
-}
-
 void CheckProblem(const FitProblem& problem, const ModelSpec& model,
                   const std::vector<std::string>& free) {
   if (problem.method != FitMethod::kAuto && problem.method != FitMethod::kNoiseField) {
@@ -86,24 +71,42 @@ void AddWarnings(const NoiseFieldFit& fit, double evolution, FitResult* result) 
 
 }  // namespace
 
+bool DriftsFreely(const FitProblem& problem, double cell, const Vec3d& x) {
+  if (problem.walls) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (AtAxis(x, axis) < AtAxis(problem.walls->low, axis) + cell ||
+          AtAxis(x, axis) > AtAxis(problem.walls->high, axis) - cell) {
+        return false;
+      }
+    }
+  }
+  if (problem.goal != GoalChoice::kGiven) return true;
+  const double grid_cell = std::numbers::sqrt3 * cell;  // the way is interpolated within one
+  return Norm(x - problem.goal_position) < problem.goal_reach - grid_cell;
+}
+
+VelocitySample DriftIn(const FitOptions& options, const FitProblem& problem, const ModelSpec& model,
+                       const ObservedFlock& flock, int frame) {
+  const double cell = model.parameters.at("cell");
+  const double ahead = options.substeps > 0 ? 0.5 - 0.5 / options.substeps : 0.5;
+  VelocitySample sample;
+  for (int a = 0; a < flock.animals(); ++a) {
+    if (!flock.Measured(a, frame) || !flock.Measured(a, frame + 1)) continue;
+    const Vec3d& x = flock.Position(a, frame);
+    const Vec3d step = flock.Position(a, frame + 1) - x;
+    if (!DriftsFreely(problem, cell, x)) continue;
+    sample.position.push_back(x + ahead * step);
+    sample.velocity.push_back(step / flock.dt());
+  }
+  return sample;
+}
+
 std::vector<VelocitySample> DriftSamples(const FitOptions& options, const FitProblem& problem,
                                          const ModelSpec& model, const Trajectories& trajectories,
                                          double fps) {
   const ObservedFlock flock(trajectories, fps, 0);
-  const double evolution = model.parameters.at("evolution"), cell = model.parameters.at("cell");
-  const double ahead = options.substeps > 0 ? 0.5 - 0.5 / options.substeps : 0.5;
-  const auto drift = [&](int frame) {
-    VelocitySample sample;
-    for (int a = 0; a < flock.animals(); ++a) {
-      if (!flock.Measured(a, frame) || !flock.Measured(a, frame + 1)) continue;
-      const Vec3d& x = flock.Position(a, frame);
-      const Vec3d step = flock.Position(a, frame + 1) - x;
-      if (!IsFree(problem, cell, x)) continue;
-      sample.position.push_back(x + ahead * step);
-      sample.velocity.push_back(fps * step);
-    }
-    return sample;
-  };
+  const double evolution = model.parameters.at("evolution");
+  const auto drift = [&](int frame) { return DriftIn(options, problem, model, flock, frame); };
   const int first = flock.span().first, last = flock.span().last - 1;
   const auto wanted = static_cast<std::size_t>(options.noise_animals);
   std::vector<VelocitySample> samples;

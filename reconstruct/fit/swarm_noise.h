@@ -12,8 +12,16 @@
 
 #include "reconstruct/fit/fit.h"
 #include "reconstruct/fit/noise_field.h"
+#include "reconstruct/fit/observed_flock.h"
 
 namespace flocklift::internal {
+
+// Does nothing but the noise move an animal here? `cell` is the model's.
+bool DriftsFreely(const FitProblem& problem, double cell, const Vec3d& x);
+
+// Of the animals that drift freely, between a frame and the next.
+VelocitySample DriftIn(const FitOptions& options, const FitProblem& problem, const ModelSpec& model,
+                       const ObservedFlock& flock, int frame);
 
 // The velocities that FitSwarmNoise fits, one sample for each independent field.
 std::vector<VelocitySample> DriftSamples(const FitOptions& options, const FitProblem& problem,
