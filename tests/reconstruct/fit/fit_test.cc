@@ -500,7 +500,7 @@ TEST(Fit, RefusesWhatMakesNoSense) {
   problem = {};
   problem.model.name = "starlings";
   EXPECT_THROW(Fit(problem, flock), InputError);
-  problem.model.name = "lin";
+  problem.model.name = "shape";
   EXPECT_THROW(Fit(problem, flock), InputError);
   FitOptions options;
   options.held_out = 2;
