@@ -54,6 +54,7 @@ std::string MakeReport(RunFolder run) {
   AddResidualSection(data, &page, &missing);
   AddScaleSection(data, &page, &missing);
   AddParametersSection(data, &page, &missing);
+  AddKernelsSection(data, &page);
   AddReplaySection(data, &page, &missing);
   AddRoundTripSection(data, &page);
   AddTimingSection(data, &page, &missing);

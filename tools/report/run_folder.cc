@@ -8,6 +8,7 @@
 
 #include "simulate/camera/camera_io.h"
 #include "simulate/core/check.h"
+#include "simulate/core/input_file.h"
 #include "simulate/core/io.h"
 
 namespace flocklift {
@@ -182,6 +183,12 @@ RunFolder ReadRunFolder(const fs::path& folder, const std::optional<fs::path>& t
   run.tables.trajectories = FindTable(folder, "trajectories", &run);
   if (const auto path = Find({folder / "parameters.toml"}, &run)) {
     run.parameters = ReadParameters(*path);
+  }
+  if (const auto path = Find({folder / "kernels.svg"}, &run)) {
+    run.kernels_picture = ReadTextFile(*path);
+  }
+  if (const auto path = Find({folder / "kernels.csv"}, &run)) {
+    run.kernels_table = ReadTextFile(*path);
   }
   if (!truth.empty()) run.tables.true_trajectories = FindTable(truth, "trajectories", &run);
   std::vector<fs::path> scores = {folder / "scores.json"};

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What the commands left in a folder, read into memory for the report: whatever is there of tracks,
-// trajectories, camera, parameters, replay, summaries, and the truth beside them.
+// trajectories, camera, parameters, kernels, replay, summaries, and the truth beside them.
 
 #ifndef FLOCKLIFT_TOOLS_REPORT_RUN_FOLDER_H_
 #define FLOCKLIFT_TOOLS_REPORT_RUN_FOLDER_H_
@@ -39,6 +39,7 @@ struct RunFolder {
   std::optional<Tracks> tracks;
   std::optional<Trajectories> trajectories;  // velocities filled where fps is known
   std::optional<Parameters> parameters;
+  std::string kernels_picture, kernels_table;  // kernels.svg and kernels.csv as text; or empty
   std::optional<Trajectories> replay;
   std::optional<Tracks> true_tracks;
   std::optional<Trajectories> true_trajectories;

@@ -94,6 +94,7 @@ void AddScaleSection(const ReportData& data, Page* page, Missing* missing) {
 
 void AddParametersSection(const ReportData& data, Page* page, Missing* missing) {
   if (!data.run.parameters) {
+    if (!data.run.kernels_picture.empty()) return;  // kernels were fitted instead
     missing->push_back("Fitted parameters: the folder has no parameters.toml.");
     return;
   }

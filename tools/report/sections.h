@@ -40,6 +40,7 @@ void AddTruthSection(const ReportData& data, Page* page, Missing* missing);
 void AddResidualSection(const ReportData& data, Page* page, Missing* missing);
 void AddScaleSection(const ReportData& data, Page* page, Missing* missing);
 void AddParametersSection(const ReportData& data, Page* page, Missing* missing);
+void AddKernelsSection(const ReportData& data, Page* page);
 void AddReplaySection(const ReportData& data, Page* page, Missing* missing);
 void AddRoundTripSection(const ReportData& data, Page* page);
 void AddTimingSection(const ReportData& data, Page* page, Missing* missing);

@@ -249,6 +249,26 @@ TEST_F(ReportTest, TellsWhatEachStageAddsToTheError) {
   EXPECT_FALSE(Contains(html, "<b>"));
 }
 
+TEST_F(ReportTest, ShowsKernelsThatWereFitted) {
+  FillFolder();
+  EXPECT_FALSE(Contains(Report(), "Fitted kernels"));
+  WriteTextFile(run_ / "kernels.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>");
+  WriteTextFile(run_ / "kernels.csv",
+                "# units: distance m\nkernel,distance,value,sd,low,high,density,known\n"
+                "attraction,0.5,0.125,0.01,0.1,0.15,1,1\nattraction,1.5,0.8125,4,-7,8,0,0\n"
+                "alignment,2.5,0.0625,0.01,0,0.1,1,1\n");
+  WriteTextFile(run_ / "summary.fit.json",
+                R"({"figures": {"kernels": [{"name": "attraction", "unit": "1/s^2",
+                "nearest": 0.25, "farthest": 3.5, "known_share_of_pairs": 0.875}]}})");
+  const std::string html = Report();
+  EXPECT_TRUE(Contains(html, "Fitted kernels"));
+  EXPECT_NE(html.find("data:image/svg+xml;base64,PHN2ZyB4bWxucz0"), std::string::npos);
+  for (const char* const text : {"0.125", "0.0625", "unknown", "1/s^2", "88 %"}) {
+    EXPECT_TRUE(Contains(html, text)) << text;
+  }
+  EXPECT_FALSE(Contains(html, "0.8125"));  // of what is not known no number
+}
+
 TEST_F(ReportTest, HostileNamesStayText) {
   FillFolder();
   const fs::path evil = folder_ / "<img src=x onerror=alert(1)>";
