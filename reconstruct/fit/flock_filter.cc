@@ -137,7 +137,7 @@ class Filter {
         track.slope = slopes_[k];
         track.transition =
             TransitionOver(input_.dt(), options_.substeps, q_, track.slope, clamps_[k]);
-        track.has_transition = true;
+        track.has_transition = !clamps_[k];  // a clamp is of its frame alone
         track.settled = false;
       }
       if (track.settled) continue;
