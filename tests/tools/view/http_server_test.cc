@@ -114,6 +114,13 @@ TEST_F(Server, ServesThePageItself) {
   EXPECT_THAT(Get("/nothing"), StartsWith("HTTP/1.1 404"));
 }
 
+// Compression costs more than it saves on one computer.
+TEST_F(Server, SendsWhatItHasAsItIs) {
+  const std::string answer = Get("/api/hello?a=b", "Accept-Encoding: gzip, deflate, br\r\n");
+  EXPECT_THAT(answer, Not(HasSubstr("Content-Encoding")));
+  EXPECT_THAT(answer, EndsWith("{\"path\": \"/api/hello\", \"a\": \"b\"}"));
+}
+
 TEST_F(Server, EveryAnswerForbidsEverythingFromOutside) {
   const std::string port = std::to_string(server_.port());
   for (const std::string& answer :
