@@ -198,25 +198,13 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
   }
 }
 
-// The mean over the track of log speed against the flock's: one residual, handed out in equal
-// parts, one a knot, each with the derivatives of its own knot times as many. The gradient is that
-// of the whole; the normal matrix is no less than it (Jensen), and banded.
-void TakeMeanSpeed(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
-                   const std::vector<Feature>& speeds, const RowSink& take) {
-  double mean = 0;
-  for (const Feature& f : speeds) mean += f.value / static_cast<double>(speeds.size());
-  const double sd = model.spreads.speed_between * std::sqrt(static_cast<double>(speeds.size()));
-  for (std::size_t k = 0; k < speeds.size(); ++k) {
-    ResidualRow row;
-    row.first = 3 * static_cast<int>(k);
-    row.residual = (mean + bird.own[kOwnLogSpeed] - shared[kFlockLogSpeed]) / sd;
-    for (int a = 0; a < kPathWidth; ++a) row.path[a] = speeds[k].path[a] / sd;
-    row.AddBorder(kOwnUnknowns + kFlockLogSpeed, -1 / sd);
-    take(Term::kSpeedSpread, row);
-  }
-}
-
-void TakeIndividual(const BatchModel& model, const Bird& bird, const RowSink& take) {
+void TakeIndividual(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
+                    const RowSink& take) {
+  ResidualRow speed;
+  speed.residual = (bird.own[kOwnLogSpeed] - shared[kFlockLogSpeed]) / model.spreads.speed_between;
+  speed.AddBorder(kOwnLogSpeed, 1 / model.spreads.speed_between);
+  speed.AddBorder(kOwnUnknowns + kFlockLogSpeed, -1 / model.spreads.speed_between);
+  take(Term::kSpeedSpread, speed);
   ResidualRow size;
   size.residual = bird.own[kOwnSizeBias] / model.spreads.size_between;
   size.AddBorder(kOwnSizeBias, 1 / model.spreads.size_between);
@@ -236,8 +224,6 @@ void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd
                                             MarkovRows(Term::kAcceleration, s.acceleration, dt)};
   MarkovRows speed(Term::kSpeed, s.speed, dt), climb(Term::kClimb, s.climb, dt);
   MarkovRows size(Term::kSize, s.size, dt), depth(Term::kDepth, s.depth, dt);
-  std::vector<Feature> speeds;
-  speeds.reserve(static_cast<std::size_t>(bird.knots));
   for (int knot = 0; knot < bird.knots; ++knot) {
     ForEachFeature(model, bird, shared, derivatives, knot,
                    [&](Term term, int axis, const Feature& feature) {
@@ -247,14 +233,12 @@ void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd
                                         : term == Term::kSize       ? size
                                                                     : depth;
                      rows.Push(knot, feature, take);
-                     if (term == Term::kSpeed) speeds.push_back(feature);
                    });
   }
-  TakeMeanSpeed(model, bird, shared, speeds, take);
   TakeAnchors(bird, take);
   TakeBounds(model, bird, take);
   TakeAnyVelocity(model, bird, take);
-  TakeIndividual(model, bird, take);
+  TakeIndividual(model, bird, shared, take);
 }
 
 void ForEachError(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,

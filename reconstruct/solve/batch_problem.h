@@ -4,9 +4,6 @@
 // The batch method's model: unknowns and residuals of a whole sequence. Every animal (segment) has
 // its path (cost_functions/path.h) and two scalars of its own; a few unknowns belong to the flock.
 // Given those, the animals are independent: an arrow (arrow_system.h).
-// What animals differ by in speed is the mean over their tracks: the deviations of one animal from
-// its own speed wander for a while but come back, and their mean over a long track would otherwise
-// count as unknown twice.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_PROBLEM_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_PROBLEM_H_

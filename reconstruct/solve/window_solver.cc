@@ -36,16 +36,10 @@ Eigen::MatrixXd EstimateSpreads(const Spreads& guess, bool size_spread, BatchSta
     const ArrowSystem::Posterior posterior = system.Covariance(covariance);
     of_bird[i].BeginAnimal((bird.knots - 1) * state->model.knot_interval);
     std::optional<ResidualRow> last_size;
-    Eigen::VectorXd mean_speed = Eigen::VectorXd::Zero(bird.unknowns());
-    double mean = 0;
     ForEachError(state->model, bird, state->shared, [&](Term term, const ResidualRow& row) {
       const bool on_stride = row.first / 3 % stride == 0;
       if (on_stride || term == Term::kDepth) {
         of_bird[i].Add(term, row.residual, system.VarianceOf(posterior, row));
-      }
-      if (term == Term::kSpeed) {
-        mean += row.residual / bird.knots;
-        for (int a = 0; a < 9; ++a) mean_speed[row.first + a] += row.path[a] / bird.knots;
       }
       if (term != Term::kSize) return;
       if (on_stride && last_size && last_size->first + 3 == row.first) {
@@ -56,11 +50,11 @@ Eigen::MatrixXd EstimateSpreads(const Spreads& guess, bool size_spread, BatchSta
       }
       last_size = row;
     });
-    auto [variance, sensitivity] = system.Functional(mean_speed);
-    sensitivity[kFlockLogSpeed] -= 1;
-    of_bird[i].Add(Term::kSpeedSpread,
-                   mean + bird.own[kOwnLogSpeed] - state->shared[kFlockLogSpeed],
-                   variance + sensitivity.dot(covariance * sensitivity));
+    ResidualRow own;
+    own.AddBorder(kOwnLogSpeed, 1);
+    own.AddBorder(kOwnUnknowns + kFlockLogSpeed, -1);
+    of_bird[i].Add(Term::kSpeedSpread, bird.own[kOwnLogSpeed] - state->shared[kFlockLogSpeed],
+                   system.VarianceOf(posterior, own));
     if (!size_spread) return;
     ResidualRow bias;
     bias.AddBorder(kOwnSizeBias, 1);
@@ -195,22 +189,20 @@ Eigen::MatrixXd ReadOut(BatchState* state, BatchSolver* solver, BatchResult* res
 
 void CollectTerms(const BatchState& state, BatchReport* report) {
   std::array<double, kTermCount> squares{}, outliers{};
-  std::array<double, kTermCount> counts{};
+  std::array<long, kTermCount> counts{};
   for (const Bird& bird : state.birds) {
     ForEachRow(state.model, bird, state.shared, false, [&](Term term, const ResidualRow& row) {
       const std::size_t k = static_cast<std::size_t>(term);
       squares[k] += row.residual * row.residual;
-      // An animal's one residual of mean speed comes in equal parts.
-      const double parts = term == Term::kSpeedSpread ? bird.knots : 1;
-      outliers[k] += std::abs(row.residual) > 3 / std::sqrt(parts) ? 1 / parts : 0;
-      counts[k] += 1 / parts;
+      outliers[k] += std::abs(row.residual) > 3 ? 1 : 0;
+      ++counts[k];
     });
   }
   for (std::size_t k = 0; k < kTermCount; ++k) {
     if (counts[k] == 0) continue;
-    const double n = counts[k];
+    const double n = static_cast<double>(counts[k]);
     report->terms.push_back(
-        {NameOf(static_cast<Term>(k)), std::lround(n), std::sqrt(squares[k] / n), outliers[k] / n});
+        {NameOf(static_cast<Term>(k)), counts[k], std::sqrt(squares[k] / n), outliers[k] / n});
   }
   const Spreads& s = state.model.spreads;
   report->spreads = {{"acceleration [m/s^2]", s.acceleration.sd},

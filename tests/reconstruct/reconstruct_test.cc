@@ -112,7 +112,7 @@ TEST_F(Twin, DepthsAreFoundWithoutSize) {
   const auto result = Reconstruct(options, tracks_, camera_, flock_.fps, 1, {});
   const Scores scores = Score(truth_, result.trajectories, camera_);
   EXPECT_EQ(scores.rows, Rows(tracks_));
-  EXPECT_LT(scores.median, 0.06);
+  EXPECT_LT(scores.median, 0.05);
   EXPECT_NEAR(scores.scale, 1, 0.1);
 }
 

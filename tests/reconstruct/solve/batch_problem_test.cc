@@ -69,12 +69,11 @@ class BatchProblemTest : public testing::Test {
 
 TEST_F(BatchProblemTest, EveryDerivativeMatchesNumericDifferences) {
   std::vector<ResidualRow> rows;
-  std::vector<Term> term_of;
+  std::set<Term> terms;
   ForEachRow(model_, bird_, shared_, true, [&](Term term, const ResidualRow& row) {
     rows.push_back(row);
-    term_of.push_back(term);
+    terms.insert(term);
   });
-  const std::set<Term> terms(term_of.begin(), term_of.end());
   EXPECT_EQ(terms.size(), kTermCount - 1u);  // the common acceleration is the flock's
   const std::vector<double> residuals = Residuals();
   ASSERT_EQ(rows.size(), residuals.size());
@@ -87,21 +86,10 @@ TEST_F(BatchProblemTest, EveryDerivativeMatchesNumericDifferences) {
     *unknown = value - kStep;
     const std::vector<double> before = Residuals();
     *unknown = value;
-    // The parts of the mean speed are right together (TakeMeanSpeed).
-    double gradient = 0, numeric_gradient = 0, square = 0, numeric_square = 0;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const double numeric = (after[r] - before[r]) / (2 * kStep);
-      if (term_of[r] == Term::kSpeedSpread) {
-        gradient += rows[r].residual * derivative_of(rows[r]);
-        numeric_gradient += residuals[r] * numeric;
-        square += std::pow(derivative_of(rows[r]), 2);
-        numeric_square += numeric * numeric;
-        continue;
-      }
       EXPECT_NEAR(derivative_of(rows[r]), numeric, 1e-4 * (1 + std::abs(numeric))) << r;
     }
-    EXPECT_NEAR(gradient, numeric_gradient, 1e-4 * (1 + std::abs(numeric_gradient)));
-    EXPECT_GE(square, numeric_square - 1e-6);  // steps too short rather than too long
   };
   for (int i = 0; i < bird_.unknowns(); ++i) {
     check(&bird_.path[static_cast<std::size_t>(i)], [i](const ResidualRow& row) {
