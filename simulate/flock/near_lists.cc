@@ -8,38 +8,45 @@
 namespace flocklift {
 namespace {
 
-constexpr std::size_t kFill = 8;               // a list's length is a multiple of it
-constexpr double kReachMargin = 1.0001;        // of the kernels' boxes, against rounding
+constexpr std::uint32_t kEight = 8;            // lists side by side
+constexpr float kReachMargin = 1.0001F;        // of the kernels' boxes, against rounding
 constexpr double kFarAway = 1e9;               // [m]
 constexpr std::size_t kFirstRoom = 1U << 15U;  // places
 
 template <typename T>
 void ListOne(const typename CellGrid<T>::View& g, const Bodies<T>& s, const NearReach<T>& reach,
-             int b, int c, std::uint32_t k, std::vector<std::uint32_t>* places) {
+             int b, int c, std::uint32_t k, std::vector<std::uint32_t>* list) {
+  list->clear();
   const int a = g.CellX(s.x[k]);
   CellGrid<T>::ForEachRun(g, a, a, b, c, [&](std::uint32_t first, std::uint32_t last) {
     for (std::uint32_t j = first; j < last; ++j) {
-      if (j != k && reach.Holds(s.Position(j) - s.Position(k))) places->push_back(j);
+      if (j != k && reach.Holds(s.Position(j) - s.Position(k))) list->push_back(j);
     }
   });
-  const auto nobody = static_cast<std::uint32_t>(s.size());
-  places->resize((places->size() + kFill - 1) / kFill * kFill, nobody);
 }
 
 template <typename T>
 void ListScalar(const CellGrid<T>& grid, const Bodies<T>& s, const NearReach<T>& reach,
                 std::uint32_t first, std::uint32_t last, NearLists* lists) {
   const auto g = grid.view();
-  lists->places.resize(lists->begin.back());
-  lists->owner.resize(lists->places.size() / kFill);
+  const auto nobody = static_cast<std::uint32_t>(s.size());
+  lists->places.resize(std::size_t{kEight} * lists->begin.back());
+  std::vector<std::uint32_t> list;
   for (int row = 0; row < g.RowCount(); ++row) {
     const int b = 1 + row % g.ny, c = 1 + row / g.ny;
     const std::uint32_t from = std::max(first, g.start[g.Cell(1, b, c)]);
     const std::uint32_t to = std::min(last, g.start[g.Cell(g.nx, b, c) + 1]);
     for (std::uint32_t k = from; k < to; ++k) {
-      ListOne(g, s, reach, b, c, k, &lists->places);
-      lists->begin.push_back(static_cast<std::uint32_t>(lists->places.size()));
-      lists->owner.resize(lists->places.size() / kFill, k);
+      const std::uint32_t lane = (k - first) % kEight;
+      if (lane == 0) lists->begin.push_back(lists->begin.back());
+      ListOne(g, s, reach, b, c, k, &list);
+      const std::size_t begin = *(lists->begin.end() - 2);
+      std::uint32_t& end = lists->begin.back();
+      end = std::max(end, static_cast<std::uint32_t>(begin + list.size()));
+      lists->places.resize(std::size_t{kEight} * end, nobody);
+      for (std::size_t n = 0; n < list.size(); ++n) {
+        lists->places[kEight * (begin + n) + lane] = list[n];
+      }
     }
   }
 }
@@ -48,10 +55,11 @@ void ListScalar(const CellGrid<T>& grid, const Bodies<T>& s, const NearReach<T>&
 std::uint32_t ListByKernel(const CellGrid<float>& grid, const Bodies<float>& s,
                            const NearReach<float>& reach, const KernelVariant& kernel,
                            std::uint32_t first, std::uint32_t last, NearLists* lists) {
-  thread_local std::vector<std::uint32_t> candidates;
+  thread_local std::vector<std::uint32_t> candidates, near;
   thread_local std::vector<float> columns;
   candidates.resize(std::max(candidates.size(), s.size() + 32));
-  columns.resize(std::max(columns.size(), 3 * (s.size() + 32)));
+  near.resize(candidates.size());
+  columns.resize(3 * candidates.size());
   const auto g = grid.view();
   ListJob job{};
   job.pairs.start = g.start;
@@ -63,24 +71,23 @@ std::uint32_t ListByKernel(const CellGrid<float>& grid, const Bodies<float>& s,
   job.pairs.x = s.x.data();
   job.pairs.y = s.y.data();
   job.pairs.z = s.z.data();
-  job.pairs.reach = static_cast<float>(kReachMargin * reach.Farthest());
   job.straight = reach.straight;
   job.manhattan = reach.manhattan;
+  job.margin = kReachMargin;
   job.nobody = static_cast<std::uint32_t>(s.size());
   job.candidates = candidates.data();
+  job.near = near.data();
   job.columns = columns.data();
-  const std::size_t listed = lists->animals();
-  lists->begin.resize(listed + 1 + (last - first));
-  job.begin = lists->begin.data() + listed;
+  job.column = candidates.size();
+  const auto eights = [first](std::uint32_t end) { return (end - first + kEight - 1) / kEight; };
+  const std::size_t listed = lists->begin.size();
+  lists->begin.resize(listed + eights(last));
+  job.begin = lists->begin.data() + (listed - 1);
   job.places = lists->places.data();
-  job.owner = lists->owner.data();
   job.room = lists->places.size();
   const std::uint32_t next = kernel.list(job, first, last);
-  lists->begin.resize(listed + 1 + (next - first));
-  if (next < last) {  // the tile that did not fit has at most 8 animals
-    lists->places.resize(2 * lists->places.size() + kFirstRoom);
-    lists->owner.resize(lists->places.size() / kFill);
-  }
+  lists->begin.resize(listed + eights(next));
+  if (next < last) lists->places.resize(2 * lists->places.size() + kFirstRoom);
   return next;
 }
 
@@ -101,8 +108,9 @@ std::uint32_t ListNear(const CellGrid<T>& grid, const Bodies<T>& bodies, const N
 
 template <typename T>
 void FillRows(const Bodies<T>& bodies, ThreadPool* pool, std::vector<BodyRow<T>>* rows) {
-  rows->resize(bodies.size() + 1);
-  rows->back() = {T(kFarAway), T(kFarAway), T(kFarAway), T(0), T(0), T(0), T(0), T(0)};
+  rows->resize(bodies.size());
+  rows->resize(bodies.size() + kEight,
+               {T(kFarAway), T(kFarAway), T(kFarAway), T(0), T(0), T(0), T(0), T(0)});
   pool->For(0, static_cast<std::int64_t>(bodies.size()), kListGrain,
             [&](std::int64_t first, std::int64_t last) {
               for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last);

@@ -36,27 +36,27 @@ struct NearReach {
   double Farthest() const { return std::max<double>(straight, manhattan); }
 };
 
-// The lists of consecutive animals, one after the other, each filled up to a multiple of eight with
-// nobody: the number of a row behind the last animal's. An animal's list ends where the next one's
-// begins.
+// The lists of consecutive animals, eight side by side as the lanes of a pack take them: neighbour
+// n of animal k is places[8 (begin[k / 8] + n) + k % 8]. Up to the longest of the eight, lists are
+// filled with nobody: the number of a row behind the last animal's.
 struct NearLists {
-  std::vector<std::uint32_t> begin;   // one more than there are animals
-  std::vector<std::uint32_t> places;  // at least as many as begin.back(); the rest is room
-  std::vector<std::uint32_t> owner;   // of every eight places: the animal whose list they are of
+  std::vector<std::uint32_t> begin;   // one more than there are eights
+  std::vector<std::uint32_t> places;  // at least 8 begin.back(); the rest is room
 
   void Clear() { begin.assign(1, 0); }
-  std::size_t animals() const { return begin.size() - 1; }
 };
 
 // Appends the lists of the animals from `first` on, up to last - 1 or until `places` is full (then
-// call again: it grows); returns the first that is not listed yet. A null kernel, or a scalar that
+// call again: it grows); returns the first that is not listed yet, `last` or some eights after
+// `first`. A null kernel, or a scalar that
 // is not float, goes pair by pair.
 template <typename T>
 std::uint32_t ListNear(const CellGrid<T>& grid, const Bodies<T>& bodies, const NearReach<T>& reach,
                        const KernelVariant* kernel, std::uint32_t first, std::uint32_t last,
                        NearLists* lists);
 
-// An animal's state side by side, to be fetched by number; the row of nobody is far away.
+// An animal's state side by side, to be fetched by number; the rows behind the last animal's, as
+// many as fill a pack, are nobody's, who is far away.
 template <typename T>
 struct alignas(8 * sizeof(T)) BodyRow {
   T x, y, z, none, vx, vy, vz, also_none;

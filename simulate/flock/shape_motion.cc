@@ -28,7 +28,7 @@ namespace {
 
 constexpr double kRangeGain = 0.3;    // of the way to the wanted number of neighbours, a step
 constexpr double kRangeChange = 0.1;  // at most, of the range, a step
-constexpr double kSkin = 0.25;        // of the reach, that lists of neighbours hold beyond it
+constexpr double kSkin = 0.18;        // of the reach, that lists of neighbours hold beyond it
 
 const ShapeInTime& FindShape(const MotionContext& context) {
   for (const ShapeInTime& shape : context.world->shapes) {
@@ -79,11 +79,11 @@ class ShapeMotion final : public Motion<T> {
     SumNeighbours(numbers, pool, herd);
     AdaptRange(spacing, *herd);
     forces_.Add(around, pool, herd);
-    const std::vector<Vec3d>& target = targets_.At(around.time);
+    TakeTargets(around.time, herd->now.agent);
     const Vec3<T> carried = Cast<T>(targets_.Velocity(around.time));
     pool->For(0, static_cast<std::int64_t>(herd->size()), kAgentGrain,
               [&](std::int64_t first, std::int64_t last) {
-                Move(around, target, carried, static_cast<std::size_t>(first),
+                Move(around, carried, static_cast<std::size_t>(first),
                      static_cast<std::size_t>(last), herd);
               });
   }
@@ -134,6 +134,20 @@ class ShapeMotion final : public Motion<T> {
     range_ *= std::clamp(factor, 1 - kRangeChange, 1 + kRangeChange);
     const double least = std::min(p_.r_att, std::max(p_.r_rep, 0.5 * spacing));
     range_ = std::clamp(range_, least, p_.r_att);
+  }
+
+  // The samples in the order of the herd; most steps change neither.
+  void TakeTargets(double time, const std::vector<std::uint32_t>& order) {
+    const std::vector<Vec3d>& target = targets_.At(time);
+    if (taken_ == targets_.version() && taken_order_ == order) return;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const Vec3<T> own = Cast<T>(target[order[k]]);
+      target_x_[k] = own.x;
+      target_y_[k] = own.y;
+      target_z_[k] = own.z;
+    }
+    taken_ = targets_.version();
+    taken_order_ = order;
   }
 
   // The curl noise where the animals first .. last - 1 are.
@@ -197,23 +211,18 @@ class ShapeMotion final : public Motion<T> {
     *v = n.carried + SpeedLimit::Limit(n.limit, *v + n.dt * *a - n.carried);
   }
 
-  void Move(const Surroundings& around, const std::vector<Vec3d>& target, const Vec3<T>& carried,
-            std::size_t first, std::size_t last, Herd<T>* herd) {
+  void Move(const Surroundings& around, const Vec3<T>& carried, std::size_t first, std::size_t last,
+            Herd<T>* herd) {
     FillNoise(first, last, herd->now);
     Bodies<T>& s = herd->now;
-    for (std::size_t k = first; k < last; ++k) {
-      const Vec3<T> own = Cast<T>(target[s.agent[k]]);
-      target_x_[k] = own.x;
-      target_y_[k] = own.y;
-      target_z_[k] = own.z;
-    }
+    const bool free = obstacles_.empty();
     const auto drive = [&]<typename U>(const MoveNumbers<U>& n, std::size_t k, const auto& load,
                                        const auto& store) {
       const auto vector = [&](const std::vector<T>& a, const std::vector<T>& b,
                               const std::vector<T>& c) -> Vec3<U> {
         return {load(a.data() + k), load(b.data() + k), load(c.data() + k)};
       };
-      const Vec3<U> x = vector(s.x, s.y, s.z);
+      Vec3<U> x = vector(s.x, s.y, s.z);
       Vec3<U> v = vector(s.vx, s.vy, s.vz), a = vector(herd->ax, herd->ay, herd->az);
       Drive(n, around.flat(), vector(curl_x_, curl_y_, curl_z_),
             vector(target_x_, target_y_, target_z_), x, &v, &a);
@@ -223,6 +232,11 @@ class ShapeMotion final : public Motion<T> {
       store(v.x, s.vx.data() + k);
       store(v.y, s.vy.data() + k);
       store(v.z, s.vz.data() + k);
+      if (!free) return;
+      x += n.dt * v;
+      store(x.x, s.x.data() + k);
+      store(x.y, s.y.data() + k);
+      store(x.z, s.z.data() + k);
     };
     std::size_t k = first;
     if constexpr (std::is_same_v<T, float>) {  // four at a time, rounded as one at a time
@@ -239,11 +253,9 @@ class ShapeMotion final : public Motion<T> {
       drive(
           n, k, [](const T* from) { return *from; }, [](const T& value, T* to) { *to = value; });
     }
-    for (k = first; k < last; ++k) {
-      const Vec3<T> x = s.Position(k);
-      Vec3<T> v = s.Velocity(k);
-      if (!obstacles_.empty()) v = Cast<T>(obstacles_.Turn(ToDouble(x), ToDouble(v)));
-      s.Set(k, x + n.dt * v, v);
+    for (k = first; k < last && !free; ++k) {
+      const Vec3<T> v = Cast<T>(obstacles_.Turn(ToDouble(s.Position(k)), ToDouble(s.Velocity(k))));
+      s.Set(k, s.Position(k) + n.dt * v, v);
     }
   }
 
@@ -258,6 +270,8 @@ class ShapeMotion final : public Motion<T> {
   std::vector<BodyRow<T>> rows_;
   std::vector<T> curl_x_, curl_y_, curl_z_;        // curl noise, in the order of the herd
   std::vector<T> target_x_, target_y_, target_z_;  // samples, likewise [m]
+  int taken_ = -1;                                 // version of the targets that these are of
+  std::vector<std::uint32_t> taken_order_;
 };
 
 }  // namespace

@@ -10,11 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
-#include <utility>
 
 #include "simulate/flock/shape_model.h"
 #include "simulate/forces/shape_force.h"
+#include "simulate/forces/term.h"
 #include "simulate/forces/zones.h"
 
 namespace flocklift {
@@ -44,71 +43,43 @@ inline double Reach(const ShapePairNumbers& n) {
   return std::max({n.r_rep, n.r_ali, n.r_att, n.reach});
 }
 
-// The four terms together. Each is a mean over those that it counts; so neighbours are counted
-// first, and then every pair is one sum of its directions, each with its term's gain over its
-// count. Sums are those of the terms by themselves but for round-off.
+// The four terms together: what they share of a pair is worked out once. Sums are those of the
+// terms by themselves but for round-off.
 template <typename T>
 struct ShapePairs {
   ZoneParams<T, HardEdge> repulsion, alignment, attraction;
   ShapeForce::Params<T, HardEdge> spread;
 
-  using Mask = std::remove_cvref_t<decltype(std::declval<T>() < std::declval<T>())>;
-  // Which terms count a neighbour.
-  struct Terms {
-    Mask repels, aligns, attracts, spreads;
-  };
-  // By term: how many neighbours count, and the gain over that.
-  struct ByTerm {
-    T repel = T(0.0), align = T(0.0), attract = T(0.0), spread = T(0.0);
+  struct Sums {
+    Weighted<T> repel, align, attract, spread;
+    T Neighbours() const { return repel.weight + align.weight + attract.weight; }
   };
 
-  // The masks of the zones alone; `spreads` is left to the caller.
-  Terms ZonesOf(const T& squared, const Mask& spreads) const {
-    const Mask repels = squared < repulsion.r_rep * repulsion.r_rep;
-    const Mask within = squared < repulsion.r_ali * repulsion.r_ali;
-    const Mask felt = squared <= repulsion.r_att * repulsion.r_att;
-    return {repels, Mask(within ^ repels), Mask(felt ^ within), spreads};
-  }
-  // What is seen of a neighbour before the gains are known.
-  struct Look {
-    Vec3<T> direction;
-    T squared;  // distance [m^2]
-    T fall;     // of the spreading; 0 beyond its reach
-    Mask spreads;
-  };
-  Look LookAt(const Vec3<T>& dx) const {
+  void Add(const Vec3<T>& dx, const Vec3<T>& dv, Sums* sums) const {
     using std::abs;
     const T squared = Dot(dx, dx), manhattan = abs(dx.x) + abs(dx.y) + abs(dx.z);
-    const Mask spreads = manhattan < spread.reach;
+    const auto repels = squared < repulsion.r_rep * repulsion.r_rep;
+    const auto within = squared < repulsion.r_ali * repulsion.r_ali;
+    const auto felt = squared <= repulsion.r_att * repulsion.r_att;
+    const Vec3<T> direction = InverseLength(squared) * dx;
+    Count(repels, direction, &sums->repel);
+    Count(felt ^ within, direction, &sums->attract);
+    Count(within ^ repels, InverseLength(Dot(dv, dv)) * dv, &sums->align);
     const T share = manhattan * (T(1.0) / spread.sigma);
-    const T fall = Where(spreads, ShapeForce::Fall(T(T(0.5) * share * share)));
-    return {InverseLength(squared) * dx, squared, fall, spreads};
+    Count(manhattan < spread.reach, ShapeForce::Fall(T(T(0.5) * share * share)) * direction,
+          &sums->spread);
   }
 
-  void Count(const Look& look, ByTerm* counts) const {
-    const Terms terms = ZonesOf(look.squared, look.spreads);
-    counts->repel += Where(terms.repels, T(1.0));
-    counts->align += Where(terms.aligns, T(1.0));
-    counts->attract += Where(terms.attracts, T(1.0));
-    counts->spread += Where(terms.spreads, T(1.0));
+  Vec3<T> Finish(const Sums& sums) const {
+    return attraction.gain * Mean(sums.attract) - repulsion.gain * Mean(sums.repel) +
+           alignment.gain * Mean(sums.align) - spread.gain * Mean(sums.spread);
   }
-  ByTerm Gains(const ByTerm& counts) const {
-    const auto share = [](const T& gain, const T& count) -> T {
-      return Where(count > T(0.0), T(gain / select(count > T(0.0), count, T(1.0))));
-    };
-    return {share(repulsion.gain, counts.repel), share(alignment.gain, counts.align),
-            share(attraction.gain, counts.attract), share(spread.gain, counts.spread)};
-  }
-  static T Neighbours(const ByTerm& counts) { return counts.repel + counts.align + counts.attract; }
 
-  // What a neighbour adds to the acceleration.
-  Vec3<T> Pair(const ByTerm& gains, const Vec3<T>& direction, const T& squared, const T& fall,
-               const Vec3<T>& dv) const {
-    const Terms terms = ZonesOf(squared, {});
-    const T zone = Where(terms.attracts, gains.attract) - Where(terms.repels, gains.repel);
-    const T along = zone - gains.spread * fall;
-    const T beside = Where(terms.aligns, gains.align) * InverseLength(Dot(dv, dv));
-    return along * direction + beside * dv;
+ private:
+  template <typename Mask>
+  static void Count(const Mask& mask, const Vec3<T>& value, Weighted<T>* sum) {
+    sum->value += {Where(mask, value.x), Where(mask, value.y), Where(mask, value.z)};
+    sum->weight += Where(mask, T(1.0));
   }
 };
 

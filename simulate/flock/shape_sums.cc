@@ -11,55 +11,38 @@
 namespace flocklift {
 namespace {
 
-// Animal k, whose neighbours are places[begin .. end - 1]. As the kernels do it: the n-th is added
-// to sum n % 8.
+// The animals first .. last - 1, whose lists they are.
 template <typename T>
-void SumOne(const ShapePairs<T>& rules, const std::vector<BodyRow<T>>& rows,
-            const PairTask<T>& task, std::uint32_t k, const std::uint32_t* begin,
-            const std::uint32_t* end) {
-  const Vec3<T> x = rows[k].Position(), v = rows[k].Velocity();
-  typename ShapePairs<T>::ByTerm counts;
-  for (const std::uint32_t* j = begin; j < end; ++j) {
-    rules.Count(rules.LookAt(rows[*j].Position() - x), &counts);
+void SumScalar(const ShapePairs<T>& rules, const std::vector<BodyRow<T>>& rows,
+               const PairTask<T>& task, const NearLists& lists, std::uint32_t first,
+               std::uint32_t last) {
+  for (std::uint32_t k = first; k < last; ++k) {
+    const Vec3<T> x = rows[k].Position(), v = rows[k].Velocity();
+    const std::uint32_t eight = (k - first) / 8, lane = (k - first) % 8;
+    typename ShapePairs<T>::Sums sums;
+    for (std::size_t n = lists.begin[eight]; n < lists.begin[eight + 1]; ++n) {
+      const BodyRow<T>& other = rows[lists.places[8 * n + lane]];
+      rules.Add(other.Position() - x, other.Velocity() - v, &sums);
+    }
+    const Vec3<T> acceleration = rules.Finish(sums);
+    task.ax[k] = acceleration.x;
+    task.ay[k] = acceleration.y;
+    task.az[k] = acceleration.z;
+    task.neighbours[k] = sums.Neighbours();
   }
-  const auto gains = rules.Gains(counts);
-  Vec3<T> eight[8] = {};
-  for (const std::uint32_t* j = begin; j < end; ++j) {
-    const auto look = rules.LookAt(rows[*j].Position() - x);
-    eight[(j - begin) % 8] +=
-        rules.Pair(gains, look.direction, look.squared, look.fall, rows[*j].Velocity() - v);
-  }
-  for (std::size_t half = 4; half > 0; half /= 2) {
-    for (std::size_t m = 0; m < half; ++m) eight[m] += eight[m + half];
-  }
-  task.ax[k] = eight[0].x;
-  task.ay[k] = eight[0].y;
-  task.az[k] = eight[0].z;
-  task.neighbours[k] = rules.Neighbours(counts);
 }
-
-// What the kernels keep of eight neighbours.
-struct alignas(32) Looks {
-  float numbers[5 * 8];
-};
 
 float F(double value) { return static_cast<float>(value); }
 
-// The animals first .. last - 1, whose lists they are.
 template <typename T>
 void SumListed(const ShapePairNumbers& n, const KernelVariant* kernel, const PairTask<T>& task,
                const std::vector<BodyRow<T>>& rows, const NearLists& lists, std::uint32_t first,
                std::uint32_t last) {
   if constexpr (std::is_same_v<T, float>) {
     if (kernel != nullptr) {
-      static_assert(sizeof(Looks) == 5 * 8 * sizeof(float));
-      thread_local std::vector<Looks> looks;
-      looks.resize(std::max(looks.size(), rows.size() / 8 + 125));
       const ShapeJob job{.rows = &rows[0].x,
                          .begin = lists.begin.data(),
                          .places = lists.places.data(),
-                         .owner = lists.owner.data(),
-                         .looks = looks[0].numbers,
                          .r_rep = F(n.r_rep),
                          .r_ali = F(n.r_ali),
                          .r_att = F(n.r_att),
@@ -76,11 +59,7 @@ void SumListed(const ShapePairNumbers& n, const KernelVariant* kernel, const Pai
       return kernel->shape(job, first, last);
     }
   }
-  const ShapePairs<T> rules = MakeShapePairs<T>(n);
-  for (std::uint32_t k = first; k < last; ++k) {
-    SumOne(rules, rows, task, k, lists.places.data() + lists.begin[k - first],
-           lists.places.data() + lists.begin[k - first + 1]);
-  }
+  SumScalar(MakeShapePairs<T>(n), rows, task, lists, first, last);
 }
 
 }  // namespace

@@ -92,7 +92,10 @@ const std::vector<Vec3d>& ShapeTargets::At(double time) {
   const bool animated = path_ || (shape_.period > 0 && shape_.meshes.size() > 1);
   const bool same = target_time_ && (*target_time_ == time ||
                                      (!animated && ShapeAt(*target_time_) == ShapeAt(time)));
-  if (!same) target_ = Points(MeshAt(time), samples_[ShapeAt(time)]);
+  if (!same) {
+    target_ = Points(MeshAt(time), samples_[ShapeAt(time)]);
+    ++version_;
+  }
   target_time_ = time;
   return target_;
 }

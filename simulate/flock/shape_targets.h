@@ -32,6 +32,7 @@ class ShapeTargets {
 
   // By agent. The same vector until something has moved.
   const std::vector<Vec3d>& At(double time);
+  int version() const { return version_; }  // another one after each change of what At returns
   // Of the path's frame at a time [m/s].
   Vec3d Velocity(double time) const;
   double Spacing(double time) const;  // mean distance of the samples sqrt(A/N) [m]
@@ -50,6 +51,7 @@ class ShapeTargets {
   std::vector<double> spacing_;                      // of each shape [m]
   std::vector<Vec3d> target_;
   std::optional<double> target_time_;  // of target_
+  int version_ = 0;                    // likewise
 };
 
 }  // namespace flocklift

@@ -7,8 +7,9 @@
 // the touching rows that are within reach of the tile's bounding box, one after the other for all
 // lanes. So every animal sums its neighbours in the order of the sort, whatever the width of a
 // pack, and nothing is contracted into fused operations that round otherwise: all variants give the
-// same bytes. The kernels of the shape and of zones (with hard edges and no sample) take animals
-// one after the other, lanes holding the neighbours, in eight sums whatever the width of a pack.
+// same bytes. So does the kernel of the shape, whose neighbours are listed; that of zones (with
+// hard edges and no sample) takes animals one after the other, lanes holding the neighbours, in
+// eight sums whatever the width of a pack.
 //
 // The variants are compiled with flags of their own. Hence this interface of plain pointers, and
 // no inline function or template that another file could share: the linker keeps only one of each.
@@ -51,25 +52,25 @@ struct ZonesJob {
   PairJob pairs;
   float r_rep, r_ali, r_att, w_rep, w_ali, w_att, taper;
 };
-// Lists of neighbours (simulate/flock/near_lists.h). `pairs` has no velocities, no sample and
-// nothing to write.
+// Lists of neighbours (simulate/flock/near_lists.h). `pairs` has no velocities, no reach, no sample
+// and nothing to write.
 struct ListJob {
   PairJob pairs;
   float straight, manhattan;  // NearReach
+  float margin;               // of the boxes around tiles, against rounding
   std::uint32_t nobody;
-  std::uint32_t* candidates;  // room for as many numbers as there are animals, and 32 more
-  float* columns;             // three times as much
-  // Where the first animal's list begins in `places`; the others are written, and the end.
+  std::uint32_t *candidates, *near;  // room for as many numbers as there are animals, and 32 more
+  float* columns;                    // three of them, each this long
+  std::size_t column;
+  // Where the first eight lists begin in `places`; the others are written, and the end.
   std::uint32_t* begin;
   std::uint32_t* places;
-  std::uint32_t* owner;
   std::size_t room;  // of places
 };
 struct ShapeJob {              // ShapePairNumbers
   const float* rows;           // BodyRow
   const std::uint32_t* begin;  // of the lists of the animals that are asked for
-  const std::uint32_t *places, *owner;
-  float* looks;  // room for 5 numbers for each place of the longest list, or 1000
+  const std::uint32_t* places;
   float r_rep, r_ali, r_att, w_rep, w_ali, w_att;
   float w_con, reach, sigma;
   float *ax, *ay, *az, *neighbours;  // as of PairJob
@@ -102,8 +103,8 @@ struct KernelVariant {
   void (*steer)(const SteerJob& job, std::uint32_t first, std::uint32_t last,
                 std::uint32_t* candidates);
 
-  // Lists the neighbours of the animals from `first` on, as far as there is room; returns the first
-  // that is not listed.
+  // Lists the neighbours of the animals from `first` on, in eights, as far as there is room;
+  // returns the first that is not listed.
   std::uint32_t (*list)(const ListJob& job, std::uint32_t first, std::uint32_t last);
   // The animals first .. last - 1, whose neighbours are listed.
   void (*shape)(const ShapeJob& job, std::uint32_t first, std::uint32_t last);

@@ -72,7 +72,7 @@ struct Kernels {
                                  zone(job.w_ali),
                                  zone(job.w_att),
                                  {Pack(job.w_con), Pack(job.reach), Pack(job.sigma), HardEdge{}}};
-    ListedShapes<Pack>(job, rules).Sum(first, last);
+    SumListedShapes<Pack>(job, rules, first, last);
   }
 
   [[gnu::flatten]] static void Steer(const SteerJob& job, std::uint32_t first, std::uint32_t last,

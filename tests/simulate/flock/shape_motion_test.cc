@@ -107,17 +107,12 @@ TEST(ShapeMotion, PairsAreTheirTerms) {
   const std::pair<Vec3d, Vec3d> others[] = {{{0.1, 0, 0}, {0, 0, 1}},   // repels and spreads
                                             {{0, 1.0, 0}, {0, 0, 2}},   // aligns
                                             {{0, 0, 3.0}, {0, 1, 0}}};  // too far
-  ShapePairs<double>::ByTerm counts;
-  for (const auto& [dx, dv] : others) pairs.Count(pairs.LookAt(dx), &counts);
-  EXPECT_EQ(pairs.Neighbours(counts), 2);
-  EXPECT_EQ(counts.spread, 1);
-  const ShapePairs<double>::ByTerm gains = pairs.Gains(counts);
-  EXPECT_EQ(gains.attract, 0);  // nobody is
-  Vec3d a;
-  for (const auto& [dx, dv] : others) {
-    const ShapePairs<double>::Look look = pairs.LookAt(dx);
-    a += pairs.Pair(gains, look.direction, look.squared, look.fall, dv);
-  }
+  ShapePairs<double>::Sums sums;
+  for (const auto& [dx, dv] : others) pairs.Add(dx, dv, &sums);
+  EXPECT_EQ(sums.Neighbours(), 2);
+  EXPECT_EQ(sums.spread.weight, 1);
+  EXPECT_EQ(sums.attract.weight, 0);  // nobody is
+  const Vec3d a = pairs.Finish(sums);
   const double spread = 0.3 * ShapeForce::Fall(0.5 * std::pow(0.1 / 0.27, 2));
   EXPECT_NEAR(a.x, -0.7 * 0.2 - spread, 1e-6);
   EXPECT_NEAR(a.y, 0, 1e-12);
