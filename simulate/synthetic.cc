@@ -122,7 +122,7 @@ Tracks SynthesizeTracks(const Trajectories& trajectories, std::span<const Animal
       };
       for (const FlyingAnimal& animal : flight.At(frame, is_in_view)) {
         const double depth = (cam_from_world * animal.position).z;
-        auto seen = SizePx(animal.animal, depth, camera) < kSpeckPx
+        auto seen = SizePx(animal.animal, depth, camera) < kTablePx
                         ? ObserveSpeck(animal, time, areas, camera, cam_from_world, surfaces.get())
                         : ObserveBody(animal, time, camera, cam_from_world, surfaces.get());
         if (!seen) continue;

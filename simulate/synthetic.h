@@ -24,7 +24,7 @@ namespace flocklift {
 // box is centred there and as wide and high as the silhouette at the frame's time (without motion
 // blur), as a tracker writes it; its shape is the silhouette's, its visibility the share that the
 // obstacles of `scenery` (may be null) leave to be seen; other animals do not count. Animals below
-// kSpeckPx take these from the tables of render/speck.h, to a hundredth of a pixel or so. An animal
+// kTablePx take these from the tables of render/speck.h, to a hundredth of their size. An animal
 // that returns keeps its id. Animals without a body in `animals` get the default one. threads: 0
 // takes all; the result does not depend on it.
 Tracks SynthesizeTracks(const Trajectories& trajectories, std::span<const Animal> animals,

@@ -110,6 +110,28 @@ TEST(SpeckTest, HasTheBoxAndTheMomentsOfTheSilhouette) {
   }
 }
 
+TEST(SpeckTest, TablesAreWithinAHundredthOfTheSizeOnAverage) {
+  const SpeckAreas areas;
+  const Camera camera = Looking(60, false);
+  double width = 0, height = 0, spread = 0;
+  int seen = 0;
+  for (std::uint64_t trial = 0; trial < 1500; ++trial) {
+    const FlyingAnimal flying = Random(trial, camera, kTablePx);
+    const auto exact = ProjectBody(flying, 0.3, camera, camera.CamFromWorld(1));
+    const auto speck = ProjectSpeckBox(flying, 0.3, areas, camera, camera.CamFromWorld(1));
+    if (!exact) continue;  // outside the image
+    ASSERT_TRUE(speck);
+    width += std::abs(speck->half_width - HalfExtent(*exact).x);
+    height += std::abs(speck->half_height - HalfExtent(*exact).y);
+    spread += std::abs(ShapeOf(speck->moments).major - ShapeOf(exact->moments).major);
+    ++seen;
+  }
+  EXPECT_GT(seen, 1000);
+  EXPECT_LT(2 * width / seen, 0.01 * kTablePx);  // of the whole box
+  EXPECT_LT(2 * height / seen, 0.01 * kTablePx);
+  EXPECT_LT(spread / seen, 0.01 * kTablePx);
+}
+
 TEST(SpeckTest, LiesAlongTheWayOfTheAnimal) {
   const Camera camera = Looking(60, false);
   const SpeckAreas areas;
