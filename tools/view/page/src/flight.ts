@@ -184,7 +184,6 @@ export class FlightView {
       }
     }
     this.ghosts.end();
-    this.ghosts.mesh.visible = this.ghosts.count > 0;
   }
 
   private animalAt(x: number, y: number): number {

@@ -195,8 +195,7 @@ export class FootageView {
       const chosen = animal === state.selected || animal === state.second;
       const [left, top, w, h] = rows.box.subarray(4 * r, 4 * r + 4);
       if (state.boxes || chosen || animal === state.hovered) {
-        seam(g, px);
-        g.strokeRect(left, top, w, h);
+        if (this.seam(g, px)) g.strokeRect(left, top, w, h);
         g.strokeStyle = chosen ? '#ffffff' : colourOnFootage(animal);
         g.lineWidth = (chosen ? 2.2 : animal === state.hovered ? 2 : 1.2) * px;
         g.setLineDash(rows.confidence[r] < 0.5 ? [4 * px, 3 * px] : []);
@@ -219,7 +218,6 @@ export class FootageView {
     const state = this.run.store.get();
     if (state.trails === 0) return;
     const px = devicePixelRatio / scale;
-    const last = new Map<number, [number, number]>();
     const lines = new Map<number, [number, number][]>();
     for (let f = frame - state.trails; f <= frame; f++) {
       const rows = this.run.boxes.near(Math.max(f, this.run.clock.first));
@@ -229,10 +227,17 @@ export class FootageView {
         const animal = rows.animal[r];
         if (!isShown(state, animal)) continue;
         const p: [number, number] = centreOfBox(rows, r);
-        const line = lines.get(animal) ?? [];
-        line.push(p);
-        lines.set(animal, line);
-        last.set(animal, p);
+        const line = lines.get(animal);
+        if (!line) {
+          lines.set(animal, [p]);
+          continue;
+        }
+        // What is nearer than two pixels to the point before the last takes the last one's place:
+        // every point costs time, and thousands of animals have many.
+        const before = line[line.length - 2];
+        const near = before && Math.hypot(p[0] - before[0], p[1] - before[1]) < 2 * px;
+        if (near) line[line.length - 1] = p;
+        else line.push(p);
       }
     }
     g.globalAlpha = 0.8;
@@ -240,13 +245,20 @@ export class FootageView {
       const chosen = animal === state.selected;
       g.beginPath();
       line.forEach(([x, y], k) => (k === 0 ? g.moveTo(x, y) : g.lineTo(x, y)));
-      seam(g, px);
-      g.stroke();
+      if (this.seam(g, px)) g.stroke();
       g.lineWidth = (chosen ? 2 : 1.3) * px;
       g.strokeStyle = chosen ? '#ffffff' : colourOnFootage(animal);
       g.stroke();
     }
     g.globalAlpha = 1;
+  }
+
+  // Light colours are to be seen on a bright sky too: a dark seam lies under them, where there is a
+  // picture. (Each line has its own: one path of thousands takes the browser seconds.)
+  private seam(g: CanvasRenderingContext2D, px: number): boolean {
+    g.lineWidth = 2.6 * px;
+    g.strokeStyle = 'rgba(0, 0, 0, 0.45)';
+    return Boolean(this.shown?.bitmap);
   }
 
   private drawStrokes(g: CanvasRenderingContext2D, scale: number): void {
@@ -353,13 +365,6 @@ export class FootageView {
       box.top + (t.y + (y + 0.5) * t.scale) / ratio,
     ];
   }
-}
-
-// Light colours are to be seen on a bright sky too: a dark seam lies under them. (Each line has its
-// own: one path of thousands takes the browser seconds.)
-function seam(g: CanvasRenderingContext2D, px: number): void {
-  g.lineWidth = 2.6 * px;
-  g.strokeStyle = 'rgba(0, 0, 0, 0.45)';
 }
 
 function centreOfBox(rows: BoxRows, r: number): [number, number] {
