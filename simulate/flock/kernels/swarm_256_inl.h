@@ -66,6 +66,20 @@ void LerpCorners(const std::int8_t* cell, float u, float v, float w, float* four
   _mm_storeu_ps(four, _mm_add_ps(low, _mm_mul_ps(_mm_set1_ps(u), _mm_sub_ps(high, low))));
 }
 
+void Columns(const float* rows, xsimd::batch<float, FLOCKLIFT_SWARM_ARCH>* columns) {
+  const auto both = [rows](int k) {  // row k in the low half, k + 4 above
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(rows + 4 * k)),
+                                _mm_load_ps(rows + 4 * (k + 4)), 1);
+  };
+  const __m256 a = both(0), b = both(1), c = both(2), d = both(3);
+  const __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);  // 0 0 1 1
+  const __m256 ab_high = _mm256_unpackhi_ps(a, b), cd_high = _mm256_unpackhi_ps(c, d);
+  columns[0] = _mm256_shuffle_ps(ab, cd, 0x44);
+  columns[1] = _mm256_shuffle_ps(ab, cd, 0xEE);
+  columns[2] = _mm256_shuffle_ps(ab_high, cd_high, 0x44);
+  columns[3] = _mm256_shuffle_ps(ab_high, cd_high, 0xEE);
+}
+
 xsimd::batch<std::uint32_t, FLOCKLIFT_SWARM_ARCH> Gather(
     const std::uint8_t* from, const xsimd::batch<std::uint32_t, FLOCKLIFT_SWARM_ARCH>& at) {
   return _mm256_i32gather_epi32(reinterpret_cast<const int*>(from), at.data, 1);

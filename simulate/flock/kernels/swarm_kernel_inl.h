@@ -3,6 +3,7 @@
 //
 // The body of every variant of the swarm kernel; included once by each, after it has defined
 //   void LerpCorners(const int8_t* cell, float u, float v, float w, float* four)
+//   void Columns(const float* rows, batch* columns)   four columns of a pack of rows of four
 //   void Prefetch(const void*)
 //   batch<uint32_t> Gather(const uint8_t* from, batch<uint32_t> at)   four bytes from from + at on
 // the first blends the numbers of a cell's corners: along z, then y, then x, each a + t (b - a).
@@ -44,20 +45,21 @@ Pack PlaceAlong(const Pack& x, float low, float per_spacing, int cells, float* s
 template <typename Pack>
 void FindPlaces(const SwarmJob& job, std::uint32_t first, std::uint32_t last, GuidePlaces* places) {
   const SwarmGuide& g = job.guide;
-  const auto nx = static_cast<std::size_t>(g.nx), ny = static_cast<std::size_t>(g.ny);
+  using Bits = typename Lattice<Pack>::Bits;
+  const Bits nx(static_cast<std::uint32_t>(g.nx)), ny(static_cast<std::uint32_t>(g.ny));
   for (std::uint32_t k = first; k < last; k += Pack::size) {
     const std::uint32_t at = k - first;
-    alignas(64) float a[Pack::size], b[Pack::size], c[Pack::size];
-    PlaceAlong(Pack::load_unaligned(job.x + k), g.low_x, g.per_spacing, g.nx, places->share[0] + at)
-        .store_aligned(a);
-    PlaceAlong(Pack::load_unaligned(job.y + k), g.low_y, g.per_spacing, g.ny, places->share[1] + at)
-        .store_aligned(b);
-    PlaceAlong(Pack::load_unaligned(job.z + k), g.low_z, g.per_spacing, g.nz, places->share[2] + at)
-        .store_aligned(c);
+    const auto whole = [](const Pack& cell) { return Lattice<Pack>::Cell(cell); };
+    const Bits i = whole(PlaceAlong(Pack::load_unaligned(job.x + k), g.low_x, g.per_spacing, g.nx,
+                                    places->share[0] + at));
+    const Bits j = whole(PlaceAlong(Pack::load_unaligned(job.y + k), g.low_y, g.per_spacing, g.ny,
+                                    places->share[1] + at));
+    const Bits l = whole(PlaceAlong(Pack::load_unaligned(job.z + k), g.low_z, g.per_spacing, g.nz,
+                                    places->share[2] + at));
+    alignas(64) std::uint32_t number[Pack::size];
+    ((l * ny + j) * nx + i).store_aligned(number);
     for (std::size_t lane = 0; lane < Pack::size; ++lane) {
-      const auto i = static_cast<std::uint32_t>(a[lane]), j = static_cast<std::uint32_t>(b[lane]),
-                 l = static_cast<std::uint32_t>(c[lane]);
-      const std::int8_t* const cell = g.cells + kGuideCellBytes * ((l * ny + j) * nx + i);
+      const std::int8_t* const cell = g.cells + std::size_t{kGuideCellBytes} * number[lane];
       places->cell[at + lane] = cell;
       Prefetch(cell);
     }
@@ -67,20 +69,19 @@ void FindPlaces(const SwarmJob& job, std::uint32_t first, std::uint32_t last, Gu
 // Adds the guide's velocity to that of a pack, animal `at` of the places and following.
 template <typename Pack>
 Pack AddGuide(const SwarmGuide& guide, const GuidePlaces& places, std::uint32_t at, Vec3<Pack>* v) {
-  alignas(64) float found[Pack::size][4], columns[4][Pack::size];
+  alignas(64) float found[4 * Pack::size];
   for (std::size_t lane = 0; lane < Pack::size; ++lane) {
     const std::size_t k = at + lane;
     LerpCorners(places.cell[k], places.share[0][k], places.share[1][k], places.share[2][k],
-                found[lane]);
+                found + 4 * lane);
   }
-  for (std::size_t lane = 0; lane < Pack::size; ++lane) {
-    for (std::size_t n = 0; n < 4; ++n) columns[n][lane] = found[lane][n];
-  }
+  Pack columns[4];
+  Columns(found, columns);
   const Pack speed(guide.speed / 127.0f), reach(guide.reach / 127.0f);
-  v->x += Pack::load_aligned(columns[0]) * speed;
-  v->y += Pack::load_aligned(columns[1]) * speed;
-  v->z += Pack::load_aligned(columns[2]) * speed;
-  return Pack::load_aligned(columns[3]) * reach;
+  v->x += columns[0] * speed;
+  v->y += columns[1] * speed;
+  v->z += columns[2] * speed;
+  return columns[3] * reach;
 }
 
 template <typename Pack>

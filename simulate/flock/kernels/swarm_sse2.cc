@@ -37,6 +37,16 @@ void LerpCorners(const std::int8_t* cell, float u, float v, float w, float* four
                                LerpFour(near.second, far.second, ty), _mm_set1_ps(u)));
 }
 
+void Columns(const float* rows, xsimd::batch<float, xsimd::sse2>* columns) {
+  __m128 a = _mm_load_ps(rows), b = _mm_load_ps(rows + 4), c = _mm_load_ps(rows + 8),
+         d = _mm_load_ps(rows + 12);
+  _MM_TRANSPOSE4_PS(a, b, c, d);
+  columns[0] = a;
+  columns[1] = b;
+  columns[2] = c;
+  columns[3] = d;
+}
+
 xsimd::batch<std::uint32_t, xsimd::sse2> Gather(
     const std::uint8_t* from, const xsimd::batch<std::uint32_t, xsimd::sse2>& at) {
   alignas(16) std::uint32_t lanes[4];
