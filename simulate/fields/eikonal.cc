@@ -15,12 +15,20 @@ namespace {
 // A local solution costs up to three times as much per node as a full one.
 constexpr std::size_t kLocalShare = 4;
 
+// Width of the front's buckets, in the smallest cost of a step.
+constexpr float kBucketSteps = 0.05F;
+
 // The u above for the smaller neighbours a, b, c along the axes and f = s l. A neighbour takes part
 // when it is below what the smaller ones alone give, and the result is above all that take part.
 float Upwind(float a, float b, float c, float f) {
-  if (a > b) std::swap(a, b);
-  if (b > c) std::swap(b, c);
-  if (a > b) std::swap(a, b);
+  const auto order = [](float& low, float& high) {  // without a branch, which none can foretell
+    const float least = std::min(low, high);
+    high = std::max(low, high);
+    low = least;
+  };
+  order(a, b);
+  order(b, c);
+  order(a, b);
   const auto above = [](float u, float m) {
     return u > m ? u : std::nextafter(m, Eikonal::kInfinite);
   };
@@ -49,15 +57,18 @@ Eikonal::Eikonal(const Grid& grid) : grid_(grid), row_(grid.nx + 2), slice_(row_
 void Eikonal::SetSlowness(std::span<const float> slowness) {
   Check(slowness.size() == grid_.size(), "one slowness per node is needed");
   free_ = 0;
+  float least = kInfinite;
   for (std::size_t node = 0; node < slowness.size(); ++node) {
     Check(slowness[node] > 0, "a slowness must be positive");
     const std::size_t padded = Padded(node);
     const float step = slowness[node] * static_cast<float>(grid_.spacing);
     free_ += step != kInfinite ? 1 : 0;
+    least = std::min(least, step);
     if (step == step_[padded]) continue;
     step_[padded] = step;
     edited_.push_back(static_cast<std::uint32_t>(padded));
   }
+  width_ = least != kInfinite ? kBucketSteps * least : 1;
 }
 
 void Eikonal::SetSeeds(std::span<const Seed> seeds) {
@@ -90,16 +101,17 @@ float Eikonal::Update(std::size_t padded) const {
                                         std::min(at[-slice], at[slice]), step));
 }
 
-// Makes infinite what stood on something that is gone, in the order of C, so that a node is judged
-// when all it stands on has been. False when that is too much of the grid.
+// Makes infinite what stood on something that is gone, about in the order of C, so that a node is
+// mostly judged when all it stands on has been; if not, it is judged again. False when that is too
+// much of the grid.
 bool Eikonal::Raise() {
-  heap_.Clear();
+  front_.Clear(width_);
   raised_.clear();
   for (const std::uint32_t node : edited_) {
-    if (value_[node] != kInfinite) heap_.Push(value_[node], node);
+    if (value_[node] != kInfinite) front_.Push(value_[node], node);
   }
-  while (!heap_.Empty()) {
-    const internal::CostHeap::Entry entry = heap_.Pop();
+  while (!front_.Empty()) {
+    const internal::CostBuckets::Entry entry = front_.Pop();
     const std::uint32_t node = entry.node;
     if (entry.cost != value_[node] || !(Update(node) > entry.cost)) continue;
     value_[node] = kInfinite;
@@ -108,19 +120,19 @@ bool Eikonal::Raise() {
     for (const std::ptrdiff_t offset : offsets_) {
       const auto other = static_cast<std::uint32_t>(node + offset);
       const float value = value_[other];
-      if (value > entry.cost && value != kInfinite) heap_.Push(value, other);
+      if (value > entry.cost && value != kInfinite) front_.Push(value, other);
     }
   }
   return true;
 }
 
-// Takes the cheapest node from the heap and spreads to its neighbours; when the heap is empty,
-// every node's equation holds. A node can change more than once (its neighbour may have been
-// provisional); the heap's older entries are then passed over. `change` is told of every node that
+// Takes one of the cheapest nodes from the front and spreads to its neighbours; when the front is
+// empty, every node's equation holds. A node can change more than once (its neighbour may have been
+// provisional); the front's older entries are then passed over. `change` is told of every node that
 // changes.
 template <typename Change>
 void Eikonal::Pop(const Change& change) {
-  const internal::CostHeap::Entry entry = heap_.Pop();
+  const internal::CostBuckets::Entry entry = front_.Pop();
   if (entry.cost != value_[entry.node]) return;
   for (const std::ptrdiff_t offset : offsets_) {
     const auto other = static_cast<std::uint32_t>(entry.node + offset);
@@ -128,18 +140,18 @@ void Eikonal::Pop(const Change& change) {
     const float value = Update(other);
     if (value == value_[other]) continue;
     value_[other] = value;
-    heap_.Push(value, other);
+    front_.Push(value, other);
     change(other);
   }
 }
 
 void Eikonal::Begin() {
   std::fill(value_.begin(), value_.end(), kInfinite);
-  heap_.Clear();
+  front_.Clear(width_);
   for (const std::uint32_t node : seeded_) {
     if (step_[node] == kInfinite || value_[node] == seed_[node]) continue;
     value_[node] = seed_[node];
-    heap_.Push(seed_[node], node);
+    front_.Push(seed_[node], node);
   }
   complete_ = false;
 }
@@ -151,10 +163,10 @@ void Eikonal::Local() {
     const float value = Update(node);
     if (value == value_[node]) continue;
     value_[node] = value;
-    heap_.Push(value, node);
+    front_.Push(value, node);
     changed_.push_back(Unpadded(node));
   }
-  while (!heap_.Empty()) {
+  while (!front_.Empty()) {
     Pop([this](std::uint32_t node) { changed_.push_back(Unpadded(node)); });
   }
 }
@@ -168,13 +180,13 @@ void Eikonal::Prepare() {
 
 void Eikonal::Reach(std::size_t node) {
   if (complete_ || IsWall(node)) return;
-  // What is still to come costs at least as much as the heap's cheapest.
+  // What is still to come costs at least as much as the front's cheapest.
   const float& value = value_[Padded(node)];
-  while (!heap_.Empty() && heap_.LeastCost() < value) Pop([](std::uint32_t) {});
+  while (!front_.Empty() && front_.LeastCost() < value) Pop([](std::uint32_t) {});
 }
 
 void Eikonal::ReachAll() {
-  while (!heap_.Empty()) Pop([](std::uint32_t) {});
+  while (!front_.Empty()) Pop([](std::uint32_t) {});
   complete_ = true;
 }
 

@@ -3,9 +3,9 @@
 //
 // The eikonal equation |grad C| = s on a grid, first order and upwind: at every node
 //   C = min(seed, u),   sum over the axes of max(0, u - m)^2 = (s l)^2,
-// m the smaller of the two neighbours' C along an axis. Solved by fast marching, that is in the
-// order of C with a heap: J. A. Sethian, "A fast marching level set method for monotonically
-// advancing fronts", PNAS 93 (1996) 1591-1595.
+// m the smaller of the two neighbours' C along an axis. Solved by fast marching, that is about in
+// the order of C: J. A. Sethian, "A fast marching level set method for monotonically advancing
+// fronts", PNAS 93 (1996) 1591-1595.
 //
 // Rounded as it is, u is still larger than every m it was computed from, so the discrete equations
 // have one solution, to the bit: whatever order leads to it, from nothing or from the solution of
@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-#include "simulate/fields/cost_heap.h"
+#include "simulate/fields/cost_buckets.h"
 #include "simulate/fields/grid_field.h"
 
 namespace flocklift {
@@ -88,7 +88,8 @@ class Eikonal {
   std::vector<std::uint32_t> seeded_;       // padded nodes that have a seed
   std::vector<std::uint32_t> edited_;       // whose equation changed since the last Solve
   std::vector<std::uint32_t> raised_;
-  internal::CostHeap heap_;
+  internal::CostBuckets front_;
+  float width_ = 1;  // of its buckets
   std::vector<std::size_t> changed_;
   bool solved_all_ = true;
   bool complete_ = false;  // every node's equation holds
