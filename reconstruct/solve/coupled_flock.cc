@@ -3,8 +3,10 @@
 
 #include "reconstruct/solve/coupled_flock.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reconstruct/solve/coupled_point.h"
 
@@ -12,36 +14,53 @@ namespace flocklift::internal {
 namespace {
 
 constexpr double kMargin = 2;  // beyond reach, so that a frozen neighbourhood stays whole [m]
+constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-7, kMostDamping = 1e6;
+constexpr double kEnough = 0.1;  // fall of the cost that counts, for each animal
 
 }  // namespace
 
-CoupledFlock::CoupledFlock(const BatchModel& model, std::vector<Bird>* birds,
-                           Eigen::VectorXd* shared)
-    : model_(model), birds_(*birds), shared_(*shared) {
+CoupledFlock::CoupledFlock(const BatchModel& model, std::vector<int> moving,
+                           std::vector<Bird>* birds, Eigen::VectorXd* shared)
+    : model_(model),
+      moving_(std::move(moving)),
+      birds_(*birds),
+      shared_(*shared),
+      place_(birds->size(), -1),
+      column_(birds->size()),
+      system_({}, 0) {
   std::size_t lines = 0;
-  Eigen::Index unknowns = 0;
   for (std::size_t i = 0; i < birds_.size(); ++i) {
     const Bird& bird = birds_[i];
     first_line_.push_back(lines);
-    offset_.push_back(unknowns);
     lines += static_cast<std::size_t>(bird.knots);
-    unknowns += bird.unknowns() + kOwnUnknowns;
     const std::size_t end = static_cast<std::size_t>(bird.first_knot + bird.knots);
     if (present_.size() < end) present_.resize(end);
     for (int k = 0; k < bird.knots; ++k) {
-      present_[static_cast<std::size_t>(bird.first_knot + k)].push_back(i);
+      present_[static_cast<std::size_t>(bird.first_knot + k)].push_back(static_cast<int>(i));
     }
-    batch_.emplace_back(bird.unknowns(), kOwnUnknowns, model_.shared());
-    blocks_.push_back(batch_.back());
   }
-  offset_.push_back(unknowns);
+  std::vector<int> widths(present_.size() + 2);
+  for (std::size_t m = 0; m < moving_.size(); ++m) {
+    const auto i = static_cast<std::size_t>(moving_[m]);
+    place_[i] = static_cast<int>(m);
+    for (int c = 0; c < birds_[i].knots + 2; ++c) {
+      int& width = widths[static_cast<std::size_t>(birds_[i].first_knot + c)];
+      column_[i].push_back(width);
+      width += 3;
+    }
+  }
   lines_.resize(lines);
   neighbours_.resize(lines);
+  Vec3d sum;
+  for (const Knot& s : States()) sum += s.x;
+  usual_log_speed_ = shared_[kFlockLogSpeed];
+  forces = FlockForces::Usual((1 / static_cast<double>(std::max<std::size_t>(lines, 1))) * sum,
+                              std::exp(usual_log_speed_),
+                              static_cast<double>(present_.size()) * model_.knot_interval);
   forces.up_in_cam = model_.up_in_cam;
-  forces.pull.assign(2 + static_cast<std::size_t>(static_cast<double>(present_.size()) *
-                                                  model_.knot_interval / kPullKnotTime),
-                     {});
-  FreezeNeighbours();
+  usual_ = forces.unknowns;
+  system_ = TimeSystem(widths, ForceBorder() + forces.size());
+  Relinearize();
 }
 
 std::vector<CoupledFlock::Knot> CoupledFlock::States() const {
@@ -56,30 +75,33 @@ std::vector<CoupledFlock::Knot> CoupledFlock::States() const {
   return states;
 }
 
-void CoupledFlock::FreezeNeighbours() {
+std::size_t CoupledFlock::LineOf(int bird, int time) const {
+  const auto i = static_cast<std::size_t>(bird);
+  return first_line_[i] + static_cast<std::size_t>(time - birds_[i].first_knot);
+}
+
+void CoupledFlock::Relinearize() {
+  for (const int i : moving_) {
+    Bird& bird = birds_[static_cast<std::size_t>(i)];
+    double sum = 0;
+    for (std::size_t k = 2; k < bird.path.size(); k += 3) sum += bird.path[k];
+    bird.reference_depth = std::exp(sum * 3 / static_cast<double>(bird.path.size()));
+  }
   const std::vector<Knot> states = States();
-  Vec3d sum;
-  for (const Knot& s : states) sum += s.x;
-  forces.center = (1 / static_cast<double>(std::max<std::size_t>(states.size(), 1))) * sum;
-  cruising_speed_.clear();
-  for (const Bird& bird : birds_) cruising_speed_.push_back(std::exp(bird.own[kOwnLogSpeed]));
   const double reach = forces.Reach() + kMargin;
   for (std::vector<int>& list : neighbours_) list.clear();
   for (std::size_t g = 0; g < present_.size(); ++g) {
-    std::vector<std::size_t> order = present_[g];
-    const auto line = [&](std::size_t i) {
-      return first_line_[i] + g - static_cast<std::size_t>(birds_[i].first_knot);
-    };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-      return states[line(i)].x.x < states[line(j)].x.x;
-    });
+    std::vector<int> order = present_[g];
+    const auto line = [&](int i) { return LineOf(i, static_cast<int>(g)); };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int i, int j) { return states[line(i)].x.x < states[line(j)].x.x; });
     for (std::size_t a = 0; a < order.size(); ++a) {
       for (std::size_t b = a + 1; b < order.size(); ++b) {
         const Vec3d dx = states[line(order[b])].x - states[line(order[a])].x;
         if (dx.x > reach) break;
         if (Norm(dx) > reach) continue;
-        neighbours_[line(order[a])].push_back(static_cast<int>(order[b]));
-        neighbours_[line(order[b])].push_back(static_cast<int>(order[a]));
+        neighbours_[line(order[a])].push_back(order[b]);
+        neighbours_[line(order[b])].push_back(order[a]);
       }
     }
   }
@@ -88,14 +110,12 @@ void CoupledFlock::FreezeNeighbours() {
 
 std::vector<Offset> CoupledFlock::OffsetsOf(std::size_t bird, int knot,
                                             const std::vector<Knot>& states) const {
+  const int time = birds_[bird].first_knot + knot;
   const std::size_t line = first_line_[bird] + static_cast<std::size_t>(knot);
   std::vector<Offset> offsets;
   for (const int j : neighbours_[line]) {
-    const auto other = static_cast<std::size_t>(j);
-    const std::size_t at =
-        first_line_[other] +
-        static_cast<std::size_t>(birds_[bird].first_knot + knot - birds_[other].first_knot);
-    offsets.push_back({states[at].x - states[line].x, states[at].v - states[line].v});
+    const Knot& other = states[LineOf(j, time)];
+    offsets.push_back({other.x - states[line].x, other.v - states[line].v});
   }
   return offsets;
 }
@@ -103,8 +123,8 @@ std::vector<Offset> CoupledFlock::OffsetsOf(std::size_t bird, int knot,
 Vec3d CoupledFlock::ErrorOf(std::size_t bird, int knot, const std::vector<Knot>& states) const {
   const Knot& s = states[first_line_[bird] + static_cast<std::size_t>(knot)];
   const double time = (birds_[bird].first_knot + knot) * model_.knot_interval;
-  const Vec3d force = PairForce(forces, OffsetsOf(bird, knot, states), nullptr) +
-                      SelfForce(forces, cruising_speed_[bird], time, s.x, s.v, nullptr);
+  const Vec3d force = PairForce(forces, OffsetsOf(bird, knot, states), nullptr, nullptr) +
+                      SelfForce(forces, birds_[bird].own[kOwnLogSpeed], time, s.x, s.v, nullptr);
   return (birds_[bird].reference_depth / s.z) * (s.a - force);
 }
 
@@ -120,8 +140,9 @@ double CoupledFlock::Whitening(int knot) const {
 double CoupledFlock::Cost() const {
   const std::vector<Knot> states = States();
   const double rho = noise.Correlation(model_.knot_interval);
-  double cost = SharedPriors(model_, shared_, nullptr, nullptr);
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
+  double cost = SharedPriors(model_, shared_, nullptr, nullptr) + ForcePriors(nullptr, nullptr);
+  for (const int bird : moving_) {
+    const auto i = static_cast<std::size_t>(bird);
     ForEachRow(model_, birds_[i], shared_, false, [&](Term term, const ResidualRow& row) {
       if (term != Term::kAcceleration) cost += RobustCost(term, row.residual);
     });
@@ -138,57 +159,119 @@ double CoupledFlock::Cost() const {
   return cost;
 }
 
-bool CoupledFlock::Minimize(int max_iterations, const std::function<void()>& on_iteration) {
-  constexpr double kFirstDamping = 1e-3, kMostDamping = 1e6;
-  constexpr double kEnoughRelative = 1e-4;  // fall of the cost that counts
-  double damping = kFirstDamping;
-  double cost = Cost();
-  for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    if (on_iteration) on_iteration();
-    Eigen::VectorXd step;
-    if (!Step(damping, &step)) {
+double CoupledFlock::ForcePriors(Eigen::MatrixXd* matrix, Eigen::VectorXd* gradient) const {
+  // Of logarithms, in the order of ForceUnknown.
+  constexpr std::array<double, kForceScalars> kSd = {0.25, 0.3, 0.4, 0.7, 1,  0.7,
+                                                     0.7,  0.1, 0.7, 1,   0.7};
+  // Of the target and its steps, in seconds of flight.
+  constexpr double kTargetSd = 1, kTargetStepSd = 0.05;
+  const double flight = std::exp(usual_log_speed_);
+  double cost = 0;
+  // (x_i - x_j - usual) / sd, without x_j where j < 0; places in the border.
+  const auto add = [&](int i, int j, double off, double sd) {
+    const double r = off / sd, w = 1 / (sd * sd);
+    cost += 0.5 * r * r;
+    if (matrix == nullptr) return;
+    (*matrix)(i, i) += w;
+    (*gradient)[i] += r / sd;
+    if (j < 0) return;
+    (*matrix)(j, j) += w;
+    (*matrix)(i, j) -= w;
+    (*matrix)(j, i) -= w;
+    (*gradient)[j] -= r / sd;
+  };
+  const Eigen::VectorXd off = forces.unknowns - usual_;
+  const int first = ForceBorder();
+  for (int k = 0; k < kForceScalars; ++k) {
+    const bool told = k != kLogDrive && k != kLogGoal && k != kLogRange;  // by what birds are
+    const double sd = (told ? tightness : 1) * kSd[static_cast<std::size_t>(k)];
+    if (IsLength(k)) {
+      add(first + k, FlockBorder() + kFlockLogSpeed,
+          off[k] - (shared_[kFlockLogSpeed] - usual_log_speed_), sd);
+    } else {
+      add(first + k, -1, off[k], sd);
+    }
+  }
+  for (int k = kForceScalars; k < forces.size(); ++k) {
+    if (k < kForceScalars + 3) {
+      add(first + k, -1, off[k], kTargetSd * flight);
+    } else {
+      add(first + k, first + k - 3, off[k] - off[k - 3], kTargetStepSd * flight);
+    }
+  }
+  return cost;
+}
+
+void CoupledFlock::Move(const TimeSystem::Step& step) {
+  for (const int moving : moving_) {
+    const auto i = static_cast<std::size_t>(moving);
+    Bird& bird = birds_[i];
+    for (int c = 0; c < bird.knots + 2; ++c) {
+      const auto control = static_cast<std::size_t>(c);
+      const Eigen::VectorXd& at = step.at[static_cast<std::size_t>(bird.first_knot + c)];
+      for (int a = 0; a < 3; ++a) {
+        bird.path[3 * control + static_cast<std::size_t>(a)] += at[column_[i][control] + a];
+      }
+    }
+    for (int a = 0; a < kOwnUnknowns; ++a) {
+      bird.own[static_cast<std::size_t>(a)] += step.border[BorderOf(i, a)];
+    }
+  }
+  shared_ += step.border.segment(FlockBorder(), model_.shared());
+  forces.unknowns += step.border.tail(forces.size());
+}
+
+void CoupledFlock::FitForces(int max_iterations) {
+  double damping = kFirstDamping, cost = Cost();
+  for (int iteration = 0; iteration < max_iterations && damping < kMostDamping; ++iteration) {
+    Linearize();
+    const int n = forces.size();
+    Eigen::MatrixXd matrix = system_.Corner().bottomRightCorner(n, n);
+    matrix.diagonal() *= 1 + damping;
+    const Eigen::VectorXd before = forces.unknowns;
+    forces.unknowns -= matrix.llt().solve(system_.BorderGradient().tail(n));
+    const double candidate = Cost();
+    if (candidate < cost) {
+      const bool still = cost - candidate < kEnough * static_cast<double>(moving_.size());
+      cost = candidate;
+      damping = std::max(0.1 * damping, kLeastDamping);
+      if (still) return;
+    } else {
+      forces.unknowns = before;
       damping *= 10;
-      if (damping > kMostDamping) return false;
+    }
+  }
+}
+
+bool CoupledFlock::Minimize(int max_iterations) {
+  double damping = kFirstDamping, cost = Cost();
+  bool linearized = false;
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
+    if (damping > kMostDamping) return true;
+    if (!linearized) Linearize();
+    linearized = true;
+    if (!system_.Factorise(damping, ArrowSystem::kDepthMetric)) {
+      damping *= 10;
       continue;
     }
     const std::vector<Bird> birds = birds_;
-    const Eigen::VectorXd shared = shared_;
-    for (std::size_t i = 0; i < birds_.size(); ++i) {
-      for (int a = 0; a < birds_[i].unknowns(); ++a) {
-        birds_[i].path[static_cast<std::size_t>(a)] += step[offset_[i] + a];
-      }
-      for (int a = 0; a < kOwnUnknowns; ++a) {
-        birds_[i].own[static_cast<std::size_t>(a)] += step[offset_[i] + birds_[i].unknowns() + a];
-      }
-    }
-    shared_ += step.tail(model_.shared());
+    const Eigen::VectorXd shared = shared_, unknowns = forces.unknowns;
+    Move(system_.Solve());
     const double candidate = Cost();
     if (candidate < cost) {
-      const bool still = cost - candidate < kEnoughRelative * cost;
+      const bool still = cost - candidate < kEnough * static_cast<double>(moving_.size());
       cost = candidate;
-      damping = std::max(0.1 * damping, 1e-7);
+      damping = std::max(0.1 * damping, kLeastDamping);
+      linearized = false;
       if (still) return true;
     } else {
       birds_ = birds;
       shared_ = shared;
+      forces.unknowns = unknowns;
       damping *= 10;
-      if (damping > kMostDamping) return true;
     }
   }
   return false;
-}
-
-double CoupledFlock::UnexplainedSd() const {
-  const std::vector<Knot> states = States();
-  double sum = 0, count = 0;
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
-    for (int k = 0; k < birds_[i].knots; ++k) {
-      const Vec3d e = ErrorOf(i, k, states);
-      sum += Dot(e, e);
-      count += 3;
-    }
-  }
-  return std::sqrt(sum / std::max(count, 1.0));
 }
 
 }  // namespace flocklift::internal

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Linearisation of the flock with forces: what every whitened error says of the animal itself and
-// of its neighbours.
+// Linearisation of the flock with forces: what every whitened error says of the animal itself, of
+// its neighbours and of the forces.
 
 #include <ceres/jet.h>
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "reconstruct/solve/coupled_flock.h"
 #include "reconstruct/solve/coupled_point.h"
@@ -17,199 +16,238 @@ namespace flocklift::internal {
 namespace {
 
 using Jet9 = ceres::Jet<double, 9>;
-using Vector3 = Eigen::Vector3d;
 
-Vector3 AsEigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
+std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
+
+int CoupledFlock::BorderOf(std::size_t bird, int index) const {
+  return index < kOwnUnknowns ? kOwnUnknowns * place_[bird] + index
+                              : FlockBorder() + index - kOwnUnknowns;
+}
+
+void CoupledFlock::AddBatchRow(std::size_t bird, const ResidualRow& row, double weight) {
+  const int first = row.first / 3;
+  const int count = 3 * std::min(4, birds_[bird].knots + 2 - first);
+  for (int a = 0; a < count; ++a) {
+    const double scaled = weight * row.path[Index(a)];
+    if (scaled == 0) continue;
+    const int time = birds_[bird].first_knot + first + a / 3;
+    const int at = column_[bird][Index(first + a / 3)] + a % 3;
+    for (int b = 0; b <= a; ++b) {
+      const int other = column_[bird][Index(first + b / 3)] + b % 3;
+      system_.Block(time, a / 3 - b / 3)(at, other) += scaled * row.path[Index(b)];
+    }
+    system_.Gradient(time)[at] += scaled * row.residual;
+    for (int c = 0; c < row.border_count; ++c) {
+      const auto [index, derivative] = row.border[Index(c)];
+      system_.ToBorder(time)(at, BorderOf(bird, index)) += scaled * derivative;
+    }
+  }
+  for (int c = 0; c < row.border_count; ++c) {
+    const auto [index, derivative] = row.border[Index(c)];
+    const int i = BorderOf(bird, index);
+    system_.BorderGradient()[i] += weight * derivative * row.residual;
+    for (int d = 0; d < row.border_count; ++d) {
+      const auto [other, by] = row.border[Index(d)];
+      system_.Corner()(i, BorderOf(bird, other)) += weight * derivative * by;
+    }
+  }
+}
+
+void CoupledFlock::LinearizeLine(std::size_t bird, int knot, const std::vector<Knot>& states) {
+  const int time = birds_[bird].first_knot + knot;
+  const std::size_t at = first_line_[bird] + Index(knot);
+  Line& line = lines_[at];
+  const std::vector<Offset> offsets = OffsetsOf(bird, knot, states);
+  std::vector<Matrix36> by(offsets.size());
+  PairUnknownsMatrix by_pair;
+  SelfDerivatives self;
+  const Knot& s = states[at];
+  const Vec3d force = PairForce(forces, offsets, by.data(), &by_pair) +
+                      SelfForce(forces, birds_[bird].own[kOwnLogSpeed], time * model_.knot_interval,
+                                s.x, s.v, &self);
+  const double factor = birds_[bird].reference_depth / s.z;
+  line.error = factor * (s.a - force);
+  Matrix36 by_own = self.by_state;
+  line.by.resize(by.size());
+  for (std::size_t n = 0; n < by.size(); ++n) {
+    by_own -= by[n];
+    line.by[n].noalias() = -factor * by[n] * lines_[LineOf(neighbours_[at][n], time)].state;
+  }
+  line.own.noalias() -= factor * by_own * line.state;
+  // 1 / z falls as log z, (1, 4, 1) / 6 of three control points, rises.
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int c = 0; c < 3; ++c) {
+      line.own(axis, 3 * c + 2) += factor * Component(force, axis) * (c == 1 ? 4.0 : 1.0) / 6;
+    }
+  }
+  line.by_log_speed = -factor * self.by_log_speed;
+  line.by_forces << -factor * by_pair, -factor * self.by_unknowns;
+  line.by_target = -factor * self.by_target;
+}
 
 void CoupledFlock::Linearize() {
   const std::vector<Knot> states = States();
   const double rate = 1 / model_.knot_interval;
-  const double rho = noise.Correlation(model_.knot_interval);
   for (std::size_t i = 0; i < birds_.size(); ++i) {
     const Bird& bird = birds_[i];
     for (int k = 0; k < bird.knots; ++k) {
-      Line& line = lines_[first_line_[i] + static_cast<std::size_t>(k)];
+      Line& line = lines_[first_line_[i] + Index(k)];
       std::array<Jet9, 9> path;
-      for (int a = 0; a < 9; ++a) {
-        path[static_cast<std::size_t>(a)] = Jet9(bird.path[static_cast<std::size_t>(3 * k + a)], a);
-      }
+      for (int a = 0; a < 9; ++a) path[Index(a)] = Jet9(bird.path[Index(3 * k + a)], a);
       const PathPoint<Jet9> p = PointOf(path.data(), rate, CameraAt(bird, k));
       const std::array<const Jet9*, 6> parts = {&p.x.x, &p.x.y, &p.x.z, &p.v.x, &p.v.y, &p.v.z};
-      for (int a = 0; a < 6; ++a) line.state.row(a) = parts[static_cast<std::size_t>(a)]->v;
-      const std::vector<Offset> offsets = OffsetsOf(i, k, states);
-      line.by.resize(offsets.size());
-      Matrix36 of_self;
-      const Knot& s = states[first_line_[i] + static_cast<std::size_t>(k)];
-      const Vec3d force =
-          PairForce(forces, offsets, line.by.data()) +
-          SelfForce(forces, cruising_speed_[i], (bird.first_knot + k) * model_.knot_interval, s.x,
-                    s.v, &of_self);
-      const double factor = bird.reference_depth / s.z;
-      line.error = factor * (s.a - force);
-      Matrix36 by_own = of_self;
-      for (Matrix36& by : line.by) {
-        by_own -= by;
-        by *= -factor;
-      }
-      line.own = -factor * by_own * line.state;
+      for (int a = 0; a < 6; ++a) line.state.row(a) = parts[Index(a)]->v;
       const std::array<const Jet9*, 3> a_over_z = {&p.a_over_z.x, &p.a_over_z.y, &p.a_over_z.z};
       for (int axis = 0; axis < 3; ++axis) {
-        line.own.row(axis) += bird.reference_depth * a_over_z[static_cast<std::size_t>(axis)]->v;
-        // 1 / z falls as log z rises.
-        line.own.row(axis) += factor * Component(force, axis) / s.z * p.z.v;
+        line.own.row(axis) = bird.reference_depth * a_over_z[Index(axis)]->v;
       }
-      const Line* before =
-          k > 0 ? &lines_[first_line_[i] + static_cast<std::size_t>(k) - 1] : nullptr;
-      const Vec3d row =
-          Whitening(k) * (before == nullptr ? line.error : line.error - rho * before->error);
+    }
+  }
+  system_.SetZero();
+  Eigen::MatrixXd priors = Eigen::MatrixXd::Zero(model_.shared(), model_.shared());
+  Eigen::VectorXd of_priors = Eigen::VectorXd::Zero(model_.shared());
+  SharedPriors(model_, shared_, &priors, &of_priors);
+  system_.Corner().block(FlockBorder(), FlockBorder(), model_.shared(), model_.shared()) = priors;
+  system_.BorderGradient().segment(FlockBorder(), model_.shared()) = of_priors;
+  ForcePriors(&system_.Corner(), &system_.BorderGradient());
+  const double rho = noise.Correlation(model_.knot_interval);
+  for (const int moving : moving_) {
+    const auto i = static_cast<std::size_t>(moving);
+    ForEachRow(model_, birds_[i], shared_, true, [&](Term term, const ResidualRow& row) {
+      if (term != Term::kAcceleration) AddBatchRow(i, row, RobustWeight(term, row.residual));
+    });
+    for (int k = 0; k < birds_[i].knots; ++k) {
+      LinearizeLine(i, k, states);
+      Line& line = lines_[first_line_[i] + Index(k)];
+      const double whitening = Whitening(k);
+      const Vec3d row = whitening * (k == 0 ? line.error : line.error - rho * (&line - 1)->error);
       line.weight = {RobustWeight(Term::kAcceleration, row.x),
                      RobustWeight(Term::kAcceleration, row.y),
                      RobustWeight(Term::kAcceleration, row.z)};
+      AddRows(RowsOf(i, k, whitening, k == 0 ? 0 : rho), row, line.weight);
     }
   }
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
-    batch_[i].SetZero();
-    ForEachRow(model_, birds_[i], shared_, true, [&](Term term, const ResidualRow& row) {
-      if (term != Term::kAcceleration) batch_[i].Add(row, RobustWeight(term, row.residual));
-    });
-    blocks_[i] = batch_[i];
-  }
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
-    AddOwnRows(i);
-    for (int k = 0; k < birds_[i].knots; ++k) AddNeighbourRows(i, k);
-  }
+  if (flock_is_free) return;
+  constexpr double kFixed = 1e15;
+  system_.Corner().diagonal().tail(system_.border() - FlockBorder()).array() += kFixed;
 }
 
-// What the rows of one animal say about itself.
-void CoupledFlock::AddOwnRows(std::size_t bird) {
-  const double rho = noise.Correlation(model_.knot_interval);
-  for (int k = 0; k < birds_[bird].knots; ++k) {
-    const Line& line = lines_[first_line_[bird] + static_cast<std::size_t>(k)];
-    const double whitening = Whitening(k);
-    for (int axis = 0; axis < 3; ++axis) {
-      ResidualRow row;
-      row.first = 3 * std::max(0, k - 1);
-      const std::size_t here = k > 0 ? 3 : 0;
-      for (std::size_t a = 0; a < 9; ++a) {
-        const auto column = static_cast<Eigen::Index>(a);
-        if (k > 0) row.path[a] -= rho * whitening * (&line - 1)->own(axis, column);
-        row.path[a + here] += whitening * line.own(axis, column);
-      }
-      blocks_[bird].Add(row, Component(line.weight, axis));
-    }
+CoupledFlock::Rows CoupledFlock::RowsOf(std::size_t bird, int knot, double factor,
+                                        double rho) const {
+  const int time = birds_[bird].first_knot + knot;
+  const std::size_t here = first_line_[bird] + Index(knot);
+  const int lines = rho != 0 ? 2 : 1;
+  Rows rows;
+  rows.first_time = time + 1 - lines;
+  // All that move and are heard in either line.
+  std::vector<int> heard = {static_cast<int>(bird)};
+  for (int l = 0; l < lines; ++l) {
+    const std::vector<int>& list = neighbours_[here - Index(l)];
+    heard.insert(heard.end(), list.begin(), list.end());
   }
-}
-
-// What the row of one animal that ends at `knot` says about each of its neighbours by itself.
-void CoupledFlock::AddNeighbourRows(std::size_t bird, int knot) {
-  const double rho = noise.Correlation(model_.knot_interval);
-  const std::size_t at = first_line_[bird] + static_cast<std::size_t>(knot);
-  const double whitening = Whitening(knot);
-  static const std::vector<int> kNobody;
-  const std::vector<int>& now = neighbours_[at];
-  const std::vector<int>& before = knot > 0 ? neighbours_[at - 1] : kNobody;
-  std::size_t a = 0, b = 0;
-  while (a < now.size() || b < before.size()) {
-    const int end = std::numeric_limits<int>::max();
-    const int j = std::min(a < now.size() ? now[a] : end, b < before.size() ? before[b] : end);
-    const auto other = static_cast<std::size_t>(j);
-    const int other_knot = birds_[bird].first_knot + knot - birds_[other].first_knot;
-    const std::size_t other_line = first_line_[other] + static_cast<std::size_t>(other_knot);
-    const int first = std::max(0, other_knot - 1);
-    Eigen::Matrix<double, 3, 12> derivative = Eigen::Matrix<double, 3, 12>::Zero();
-    if (a < now.size() && now[a] == j) {
-      derivative.middleCols(3 * (other_knot - first), 9) +=
-          lines_[at].by[a] * lines_[other_line].state;
-      ++a;
-    }
-    if (b < before.size() && before[b] == j) {
-      derivative.leftCols(9) -= rho * lines_[at - 1].by[b] * lines_[other_line - 1].state;
-      ++b;
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      ResidualRow row;
-      row.first = 3 * first;
-      for (int c = 0; c < 12; ++c) {
-        row.path[static_cast<std::size_t>(c)] = whitening * derivative(axis, c);
-      }
-      blocks_[other].Add(row, Component(lines_[at].weight, axis));
-    }
-  }
-}
-
-void CoupledFlock::AddDynamics(const Eigen::VectorXd* x, Eigen::VectorXd* y) const {
-  const double rho = noise.Correlation(model_.knot_interval);
-  std::vector<Eigen::Matrix<double, 6, 1>> moved(lines_.size()), pulls(lines_.size());
-  std::vector<Vector3> errors(lines_.size());
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
-    for (int k = 0; k < birds_[i].knots; ++k) {
-      const std::size_t at = first_line_[i] + static_cast<std::size_t>(k);
-      pulls[at].setZero();
-      if (x == nullptr) {
-        errors[at] = AsEigen(lines_[at].error);
-        continue;
-      }
-      const auto path = x->segment<9>(offset_[i] + 3 * k);
-      moved[at] = lines_[at].state * path;
-      errors[at] = lines_[at].own * path;
-    }
-  }
-  const auto line_of = [&](int j, std::size_t i, int k) {
-    const auto other = static_cast<std::size_t>(j);
-    return first_line_[other] +
-           static_cast<std::size_t>(birds_[i].first_knot + k - birds_[other].first_knot);
+  std::erase_if(heard, [this](int j) { return !Moves(j); });
+  std::sort(heard.begin(), heard.end());
+  heard.erase(std::unique(heard.begin(), heard.end()), heard.end());
+  using Derivative = Eigen::Matrix<double, 3, 12>;
+  std::vector<Derivative> by(heard.size(), Derivative::Zero());
+  const auto by_of = [&](int j) -> Derivative& {
+    return by[Index(
+        static_cast<int>(std::lower_bound(heard.begin(), heard.end(), j) - heard.begin()))];
   };
-  if (x != nullptr) {
-    for (std::size_t i = 0; i < birds_.size(); ++i) {
-      for (int k = 0; k < birds_[i].knots; ++k) {
-        const std::size_t at = first_line_[i] + static_cast<std::size_t>(k);
-        for (std::size_t n = 0; n < neighbours_[at].size(); ++n) {
-          errors[at].noalias() += lines_[at].by[n] * moved[line_of(neighbours_[at][n], i, k)];
+  rows.by_border = Eigen::MatrixXd::Zero(3, 1 + forces.size());
+  for (int l = 0; l < lines; ++l) {
+    const double share = l == 0 ? factor : -factor * rho;
+    const Line& line = lines_[here - Index(l)];
+    const int offset = 3 * (lines - 1 - l);
+    by_of(static_cast<int>(bird)).middleCols<9>(offset) += share * line.own;
+    const std::vector<int>& neighbours = neighbours_[here - Index(l)];
+    for (std::size_t n = 0; n < neighbours.size(); ++n) {
+      if (Moves(neighbours[n])) by_of(neighbours[n]).middleCols<9>(offset) += share * line.by[n];
+    }
+    rows.by_border.col(0) += share * line.by_log_speed;
+    rows.by_border.middleCols<kForceScalars>(1) += share * line.by_forces;
+    const FlockForces::Share target = forces.ShareAt((time - l) * model_.knot_interval);
+    const int first = 1 + kForceScalars + 3 * target.knot;
+    rows.by_border.middleCols<3>(first) += share * (1 - target.next) * line.by_target;
+    rows.by_border.middleCols<3>(first + 3) += share * target.next * line.by_target;
+  }
+  for (int c = 0; c < 2 + lines; ++c) {
+    auto& matrix = rows.by[Index(c)];
+    matrix.resize(3, 3 * static_cast<Eigen::Index>(heard.size()));
+    Eigen::Index at = 0;
+    for (std::size_t n = 0; n < heard.size(); ++n) {
+      const std::size_t other = Index(heard[n]);
+      const int control = rows.first_time + c - birds_[other].first_knot;
+      // One that is there at one of the two knots only has no control points beyond.
+      if (control < 0 || control >= static_cast<int>(column_[other].size())) continue;
+      rows.columns[Index(c)].push_back(column_[other][Index(control)]);
+      matrix.middleCols<3>(at) = by[n].middleCols<3>(3 * c);
+      at += 3;
+    }
+    matrix.conservativeResize(3, at);
+  }
+  rows.border.push_back(BorderOf(bird, kOwnLogSpeed));
+  for (int k = 0; k < forces.size(); ++k) rows.border.push_back(ForceBorder() + k);
+  return rows;
+}
+
+void CoupledFlock::AddRows(const Rows& rows, const Vec3d& residual, const Vec3d& weight) {
+  const Eigen::Vector3d w(weight.x, weight.y, weight.z);
+  const Eigen::Vector3d r(weight.x * residual.x, weight.y * residual.y, weight.z * residual.z);
+  const Eigen::Index first = ForceBorder(), count = forces.size();
+  const auto of_forces = rows.by_border.rightCols(count);
+  for (int c = 0; c < TimeSystem::kSpan; ++c) {
+    const int time = rows.first_time + c;
+    for (std::size_t n = 0; n < rows.columns[Index(c)].size(); ++n) {
+      const int at = rows.columns[Index(c)][n];
+      const auto by = rows.by[Index(c)].middleCols<3>(3 * static_cast<Eigen::Index>(n));
+      const Eigen::Matrix3d weighted = by.transpose() * w.asDiagonal();
+      for (int d = 0; d <= c; ++d) {
+        const std::vector<int>& others = rows.columns[Index(c - d)];
+        Eigen::MatrixXd& block = system_.Block(time, d);
+        for (std::size_t m = 0; m < others.size() && (d > 0 || others[m] <= at); ++m) {
+          const Eigen::Matrix3d other =
+              rows.by[Index(c - d)].middleCols<3>(3 * static_cast<Eigen::Index>(m));
+          block.block<3, 3>(at, others[m]) += weighted * other;
         }
       }
+      system_.Gradient(time).segment<3>(at) += by.transpose() * r;
+      Eigen::MatrixXd& border = system_.ToBorder(time);
+      border.block<3, 1>(at, rows.border[0]) += weighted * rows.by_border.col(0);
+      border.middleRows<3>(at).middleCols(first, count) += weighted.lazyProduct(of_forces);
     }
   }
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
-    Vector3 next = Vector3::Zero();  // of the row that begins here, by the error here
-    for (int k = birds_[i].knots - 1; k >= 0; --k) {
-      const std::size_t at = first_line_[i] + static_cast<std::size_t>(k);
-      const double whitening = Whitening(k);
-      Vector3 row = errors[at];
-      if (k > 0) row -= rho * errors[at - 1];
-      row = (whitening * whitening) * row.cwiseProduct(AsEigen(lines_[at].weight));
-      const Vector3 by_error = row + next;
-      next = -rho * row;
-      y->segment<9>(offset_[i] + 3 * k).noalias() += lines_[at].own.transpose() * by_error;
-      for (std::size_t n = 0; n < neighbours_[at].size(); ++n) {
-        pulls[line_of(neighbours_[at][n], i, k)].noalias() +=
-            lines_[at].by[n].transpose() * by_error;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
-    for (int k = 0; k < birds_[i].knots; ++k) {
-      const std::size_t at = first_line_[i] + static_cast<std::size_t>(k);
-      y->segment<9>(offset_[i] + 3 * k).noalias() += lines_[at].state.transpose() * pulls[at];
+  const Eigen::MatrixXd product = rows.by_border.transpose() * w.asDiagonal() * rows.by_border;
+  const Eigen::VectorXd gradient = rows.by_border.transpose() * r;
+  for (std::size_t a = 0; a < rows.border.size(); ++a) {
+    const auto i = static_cast<Eigen::Index>(a);
+    system_.BorderGradient()[rows.border[a]] += gradient[i];
+    for (std::size_t b = 0; b < rows.border.size(); ++b) {
+      system_.Corner()(rows.border[a], rows.border[b]) += product(i, static_cast<Eigen::Index>(b));
     }
   }
 }
 
 Eigen::VectorXd CoupledFlock::Gradient() {
   Linearize();
-  const Eigen::Index size = model_.shared();
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(offset_.back() + size);
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
-  Eigen::VectorXd of_shared = Eigen::VectorXd::Zero(size);
-  SharedPriors(model_, shared_, &matrix, &of_shared);
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
-    const Eigen::Index own = offset_[i + 1] - offset_[i];
-    gradient.segment(offset_[i], own) += batch_[i].gradient().head(own);
-    of_shared += batch_[i].gradient().tail(size);
+  Eigen::Index size = system_.border();
+  for (const int i : moving_) size += birds_[Index(i)].unknowns();
+  Eigen::VectorXd gradient(size);
+  Eigen::Index at = 0;
+  for (const int moving : moving_) {
+    const std::size_t i = Index(moving);
+    for (int c = 0; c < birds_[i].knots + 2; ++c) {
+      gradient.segment<3>(at) =
+          system_.Gradient(birds_[i].first_knot + c).segment<3>(column_[i][Index(c)]);
+      at += 3;
+    }
+    for (int a = 0; a < kOwnUnknowns; ++a) {
+      gradient[at++] = system_.BorderGradient()[BorderOf(i, a)];
+    }
   }
-  gradient.tail(size) = of_shared;
-  AddDynamics(nullptr, &gradient);
+  gradient.tail(size - at) = system_.BorderGradient().tail(size - at);
   return gradient;
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "reconstruct/solve/coupled_flock.h"
@@ -17,68 +19,161 @@ namespace {
 
 using namespace internal;  // NOLINT: the method's own parts
 
-constexpr int kIterations = 8;  // of one turn, at most
+constexpr int kIterations = 6;           // of one round, at most
+constexpr std::size_t kMostAtOnce = 40;  // animals in one system: its cost per animal grows as N^2
 
-// Paths and forces that predict best so far.
-struct Best {
-  std::vector<double> errors;  // of the hidden pieces
+struct Flock {
   std::vector<Bird> birds;
-  Eigen::VectorXd shared;
-  FlockForces forces;
+  Eigen::VectorXd shared, forces;
   MarkovProcess noise;
+  double cost = 0;
 };
 
-// In turns: the forces that explain the paths, the paths that the forces and all else explain.
-// Starts with as much noise as the batch solution leaves, and halves it.
-Best FollowForces(const DynamicsOptions& options, const HiddenSightings& hidden,
-                  const BatchModel& model, std::vector<Bird>* birds, Eigen::VectorXd* shared) {
-  CoupledFlock flock(model, birds, shared);
-  flock.noise.time = options.noise_time;
-  double sd = std::max(options.noise_sd, model.spreads.acceleration.sd);
-  Best best;
-  double least = 0;
+// Animals that are solved for at once: all, or in a large flock those beside each other.
+std::vector<std::vector<int>> Groups(const std::vector<Bird>& birds) {
+  std::vector<int> order(birds.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto side = [&birds](int i) {
+    const std::vector<double>& path = birds[static_cast<std::size_t>(i)].path;
+    double sum = 0;
+    for (std::size_t k = 0; k < path.size(); k += 3) sum += path[k];
+    return sum / static_cast<double>(path.size());
+  };
+  const std::size_t count = (birds.size() + kMostAtOnce - 1) / kMostAtOnce;
+  if (count > 1) {
+    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return side(i) < side(j); });
+  }
+  std::vector<std::vector<int>> groups(count);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    groups[k * count / order.size()].push_back(order[k]);
+  }
+  for (std::vector<int>& group : groups) std::sort(group.begin(), group.end());
+  // The one in the middle hears most of the others: it finds the forces.
+  std::swap(groups[0], groups[count / 2]);
+  return groups;
+}
+
+// Forces and the paths of a group from where they are, with the noise that they leave from round to
+// round, at first as much as the batch method's accelerations.
+void Follow(const DynamicsOptions& options, const BatchModel& model, const std::vector<int>& group,
+            Flock* flock) {
+  CoupledFlock coupled(model, group, &flock->birds, &flock->shared);
+  coupled.noise = {std::max(options.noise_sd, model.spreads.acceleration.sd), options.noise_time};
+  coupled.FitForces(2 * kIterations);
   for (int round = 0; round < options.rounds; ++round) {
-    flock.noise.sd = sd;
-    flock.FitRadii();
-    flock.Minimize(kIterations, {});
-    std::vector<double> errors = hidden.ErrorsOf(*birds, model.knot_interval);
-    const double mean = MeanOf(errors);
-    if (round == 0 || mean < least) {
-      least = mean;
-      best = {std::move(errors), *birds, *shared, flock.forces, flock.noise};
-    }
-    sd = std::max(options.noise_sd, 0.5 * sd);
+    coupled.Minimize(kIterations);
+    coupled.Relinearize();
+    const double sd = coupled.noise.sd;
+    coupled.noise.sd =
+        std::max(options.noise_sd, std::clamp(coupled.EstimateNoise(), 0.5 * sd, 1.5 * sd));
   }
-  return best;
+  coupled.Minimize(kIterations);
+  flock->forces = coupled.forces.unknowns;
+  flock->noise = coupled.noise;
+  flock->cost = coupled.Cost();
 }
 
-// Forces know no scale but what their gains and radii, estimated before, remember of it: the common
-// scale stays that of the batch solution.
-void KeepScale(const std::vector<Bird>& before, std::vector<Bird>* birds, Eigen::VectorXd* shared,
-               const BatchModel& model) {
-  double sum = 0, count = 0;
-  for (std::size_t i = 0; i < birds->size(); ++i) {
-    for (std::size_t k = 2; k < before[i].path.size(); k += 3) {
-      sum += (*birds)[i].path[k] - before[i].path[k];
-      ++count;
-    }
+// The same, but at first with the forces of usual birds: depths that are wrong make all of a
+// neighbour's influence look weaker than it is, and weak forces leave them wrong.
+void FollowUsual(const BatchModel& model, const std::vector<int>& group, const MarkovProcess& noise,
+                 Flock* flock) {
+  constexpr double kTight = 0.1;
+  CoupledFlock coupled(model, group, &flock->birds, &flock->shared);
+  coupled.noise = {2 * noise.sd, noise.time};
+  coupled.tightness = kTight;
+  coupled.FitForces(2 * kIterations);
+  coupled.Minimize(kIterations);
+  coupled.noise = noise;
+  for (const double tightness : {kTight, 1.0}) {
+    coupled.tightness = tightness;
+    coupled.Relinearize();
+    coupled.Minimize(kIterations);
   }
-  const double grown = sum / count;
-  for (Bird& bird : *birds) {
-    for (std::size_t k = 2; k < bird.path.size(); k += 3) bird.path[k] -= grown;
-    bird.own[kOwnLogSpeed] -= grown;
-  }
-  (*shared)[kFlockLogSpeed] -= grown;
-  (*shared)[kSizeRatio] -= grown;
-  for (int k = model.depth.first; k < model.depth.end(); ++k) (*shared)[k] -= grown;
+  flock->forces = coupled.forces.unknowns;
+  flock->noise = noise;
+  flock->cost = coupled.Cost();
 }
 
-void Describe(const FlockForces& f, DynamicsReport* report) {
-  double pull = 0;
-  for (const Vec3d& p : f.pull) pull += Norm(p) / static_cast<double>(f.pull.size());
-  report->forces = {{"d_s", f.d_s},         {"d_v", f.d_v},         {"alpha_s", f.alpha_s},
-                    {"alpha_c", f.alpha_c}, {"alpha_a", f.alpha_a}, {"cruise", f.cruise},
-                    {"level", f.level},     {"spring", f.spring},   {"pull", pull}};
+// Goes on with what is known of forces and noise.
+void Polish(const BatchModel& model, const std::vector<int>& group, bool first, Flock* flock,
+            std::optional<DepthPosterior>* posterior) {
+  CoupledFlock coupled(model, group, &flock->birds, &flock->shared);
+  coupled.forces.unknowns = flock->forces;
+  coupled.noise = flock->noise;
+  coupled.flock_is_free = first;
+  coupled.Relinearize();
+  coupled.Minimize(kIterations);
+  flock->forces = coupled.forces.unknowns;
+  if (posterior == nullptr) return;
+  const CoupledFlock::DepthSds sds = coupled.Depths();
+  if (sds.at.empty()) return;
+  if (first) *posterior = DepthPosterior{sds.at, sds.mean};
+  if (first || !*posterior) return;
+  // What the first group does not know of the scale the others, which follow it, do not know.
+  for (const int i : group) {
+    const auto at = static_cast<std::size_t>(i);
+    (*posterior)->sd_log_depth[at] = sds.at[at];
+    for (double& sd : (*posterior)->sd_log_depth[at]) sd = std::hypot(sd, (*posterior)->scale_sd);
+  }
+}
+
+// How far the depths of two solutions are apart after one common scale: of every animal in the
+// group, halfway to what all have in common; of the others that.
+std::vector<double> Apart(const std::vector<int>& group, const std::vector<Bird>& a,
+                          const std::vector<Bird>& b) {
+  std::vector<double> sums(a.size()), squares(a.size()), counts(a.size());
+  double sum = 0, square = 0, count = 0;
+  for (const int i : group) {
+    const auto at = static_cast<std::size_t>(i);
+    for (std::size_t k = 2; k < a[at].path.size(); k += 3) {
+      const double off = a[at].path[k] - b[at].path[k];
+      sums[at] += off;
+      squares[at] += off * off;
+      ++counts[at];
+    }
+    sum += sums[at];
+    square += squares[at];
+    count += counts[at];
+  }
+  const double mean = sum / count, common = square / count - mean * mean;
+  std::vector<double> apart(a.size());
+  for (std::size_t i = 0; i < apart.size(); ++i) {
+    double own = common;
+    if (counts[i] > 0) own = (squares[i] - 2 * mean * sums[i]) / counts[i] + mean * mean;
+    apart[i] = std::sqrt(std::max(0.0, 0.5 * (own + common)));
+  }
+  return apart;
+}
+
+struct Followed {
+  Flock flock;
+  std::vector<double> apart;  // of the solutions from both starts, by animal [log depth]
+};
+
+// From the batch solution on, from both starts: which is better is not seen before the end.
+Followed FollowForces(const DynamicsOptions& options, const WindowToRefine& window) {
+  const std::vector<std::vector<int>> groups = Groups(*window.birds);
+  Flock fitted{*window.birds, *window.shared, {}, {}};
+  Flock usual = fitted;
+  Follow(options, window.model, groups[0], &fitted);
+  FollowUsual(window.model, groups[0], fitted.noise, &usual);
+  Followed followed;
+  followed.apart = Apart(groups[0], fitted.birds, usual.birds);
+  followed.flock = usual.cost < fitted.cost ? std::move(usual) : std::move(fitted);
+  for (std::size_t g = 1; g < groups.size(); ++g) {
+    Polish(window.model, groups[g], false, &followed.flock, nullptr);
+  }
+  return followed;
+}
+
+void Describe(const Flock& flock, DynamicsReport* report) {
+  FlockForces f;
+  f.unknowns = flock.forces;
+  report->forces = {
+      {"d_s", f[kLogDs]},         {"d_v", f[kLogDv]},           {"taper", f[kLogTaper]},
+      {"alpha_s", f[kLogAlphaS]}, {"alpha_c", f[kLogAlphaC]},   {"alpha_a", f[kLogAlphaA]},
+      {"cruise", f[kLogCruise]},  {"drive", f[kLogDrive]},      {"level", f[kLogLevel]},
+      {"goal", f[kLogGoal]},      {"goal_range", f[kLogRange]}, {"noise", flock.noise.sd}};
 }
 
 }  // namespace
@@ -94,34 +189,40 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     const HiddenSightings hidden(options.hidden, options.hidden_time, fps, window.segments);
     if (hidden.count() == 0) return;
     ++report.windows;
-    std::vector<double> batch_errors;
-    Best best;
+    std::vector<double> batch_errors, errors;
+    Followed followed;
+    Flock& flock = followed.flock;
     SolveWindow(batch_options, knowledge, hidden.rest(), window.belief, window.first_frame, fps,
                 threads, {}, [&](const WindowToRefine& masked) {
                   batch_errors = hidden.ErrorsOf(*masked.birds, masked.model.knot_interval);
-                  best = FollowForces(options, hidden, masked.model, masked.birds, masked.shared);
+                  followed = FollowForces(options, masked);
+                  errors = hidden.ErrorsOf(flock.birds, masked.model.knot_interval);
                 });
     report.hidden += hidden.count();
     batch_sum += MeanOf(batch_errors) * static_cast<double>(hidden.count());
-    dynamics_sum += MeanOf(best.errors) * static_cast<double>(hidden.count());
-    if (!PredictsBetter(best.errors, batch_errors)) return;
+    dynamics_sum += MeanOf(errors) * static_cast<double>(hidden.count());
+    if (!PredictsBetter(errors, batch_errors)) return;
     ++report.kept;
-    Describe(best.forces, &report);
-    const std::vector<Bird> of_batch = *window.birds;
     // The same knots: what is hidden lies between sightings.
-    for (std::size_t i = 0; i < best.birds.size(); ++i) {
-      (*window.birds)[i].path = best.birds[i].path;
-      (*window.birds)[i].own = best.birds[i].own;
+    std::vector<Bird> birds = *window.birds;
+    for (std::size_t i = 0; i < birds.size(); ++i) {
+      birds[i].path = flock.birds[i].path;
+      birds[i].own = flock.birds[i].own;
     }
-    *window.shared = best.shared;
-    CoupledFlock flock(window.model, window.birds, window.shared);
-    flock.forces = best.forces;
-    flock.noise = best.noise;
-    flock.FreezeNeighbours();
-    flock.Minimize(kIterations, {});
-    flock.FitGains();
-    flock.Minimize(kIterations, {});
-    KeepScale(of_batch, window.birds, window.shared, window.model);
+    flock.birds = std::move(birds);
+    const std::vector<std::vector<int>> groups = Groups(flock.birds);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      Polish(window.model, groups[g], g == 0, &flock, window.posterior);
+    }
+    // Where two starts end apart neither is sure.
+    for (std::size_t i = 0; i < followed.apart.size() && *window.posterior; ++i) {
+      for (double& sd : (*window.posterior)->sd_log_depth[i]) {
+        sd = std::hypot(sd, followed.apart[i]);
+      }
+    }
+    *window.birds = flock.birds;
+    *window.shared = flock.shared;
+    Describe(flock, &report);
   };
   result.batch = SolveBatch(batch_options, knowledge, segments, fps, threads, progress, {}, refine);
   if (report.hidden > 0) {

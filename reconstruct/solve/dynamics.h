@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Flock dynamics on top of the batch method: the forces between the animals are estimated together
-// with their paths (coupled_flock.h), from the batch solution on, in turns and with less and less
-// noise. They have to earn their place: a part of the sightings is hidden from both, and the forces
-// are kept only where they predict these better than the batch solution does. What is hidden must
-// last longer than an acceleration does, or smoothness alone predicts it as well.
+// with their paths (coupled_flock.h), from the batch solution on, with as much noise as they leave.
+// They have to earn their place: a part of the sightings is hidden from both, and the forces are
+// kept only where they predict these better than the batch solution does. What is hidden must last
+// longer than an acceleration does, or smoothness alone predicts it as well.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
@@ -17,9 +17,9 @@ namespace flocklift {
 struct DynamicsOptions {
   double hidden = 0.1;
   double hidden_time = 1.5;
-  double noise_sd = 0.8;
+  double noise_sd = 0.3;
   double noise_time = 0.7;
-  int rounds = 4;
+  int rounds = 3;
 };
 
 template <typename Visitor>
@@ -31,7 +31,7 @@ void Describe(Visitor& visit, DynamicsOptions& o) {
   visit("noise-sd", o.noise_sd, {.low = 0.01, .high = 100}, "m/s^2",
         "least spread of accelerations beyond the forces");
   visit("noise-time", o.noise_time, {.low = 0.01, .high = 100}, "s", "how long these last");
-  visit("rounds", o.rounds, {.low = 1, .high = 20}, "", "turns of forces and paths, at most");
+  visit("rounds", o.rounds, {.low = 1, .high = 20}, "", "of estimating the noise");
 }
 
 // What came of it, over all windows.
@@ -40,7 +40,8 @@ struct DynamicsReport {
   long hidden = 0;         // sightings
   double batch_error = 0;  // mean error of the predicted image positions, in their sds
   double dynamics_error = 0;
-  // Of the last window with forces: by the names of boids, `spring` and `pull` (mean) for the goal.
+  // Of the last window with forces: by the names of boids, `goal` for the goal's weight, `drive`
+  // for the cruising speed over the mean speed.
   std::vector<std::pair<std::string, double>> forces;
 };
 

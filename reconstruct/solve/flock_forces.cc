@@ -6,33 +6,36 @@
 #include <ceres/jet.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "simulate/flock/boids.h"
+#include "simulate/forces/attraction.h"
 
 namespace flocklift::internal {
 namespace {
 
 using Jet4 = ceres::Jet<double, 4>;  // of a rule's sum: value and weight
-using Jet6 = ceres::Jet<double, 6>;  // of (dx, dv), or (x, v)
+using Jet6 = ceres::Jet<double, 6>;  // of (dx, dv)
+using JetP = ceres::Jet<double, kPairUnknowns>;
+using JetS = ceres::Jet<double, 6 + 1 + kSelfUnknowns + 3>;  // (x, v), log speed, unknowns, target
 
-BoidsParameters<double> ParametersOf(const FlockForces& f) {
-  BoidsParameters<double> p;
-  p.d_s = f.d_s;
-  p.d_v = f.d_v;
-  p.alpha_s = f.alpha_s;
-  p.alpha_c = f.alpha_c;
-  p.alpha_a = f.alpha_a;
-  return p;
+// The rules of neighbours with parameters given by `unknown`, of any scalar.
+template <typename T, typename Unknown>
+BoidsPairs<T> PairsOf(const Unknown& unknown) {
+  BoidsParameters<T> p;
+  p.d_s = unknown(kLogDs);
+  p.d_v = unknown(kLogDv);
+  p.alpha_s = unknown(kLogAlphaS);
+  p.alpha_c = unknown(kLogAlphaC);
+  p.alpha_a = unknown(kLogAlphaA);
+  return MakeBoidsPairs<T>(p, unknown(kLogTaper));
 }
 
-template <typename T>
-T Constant(double value) {
-  return T(value);
-}
-
-Vec3<Jet6> Seeded(const Vec3d& v, int first) {
-  return {Jet6(v.x, first), Jet6(v.y, first + 1), Jet6(v.z, first + 2)};
+template <typename Jet>
+Vec3<Jet> Seeded(const Vec3d& v, int first) {
+  return {Jet(v.x, first), Jet(v.y, first + 1), Jet(v.z, first + 2)};
 }
 
 // What a rule's sum is made of, with derivatives by each neighbour.
@@ -56,9 +59,8 @@ struct RuleSum {
     jets.weight = Jet4(sum.weight, 3);
     return jets;
   }
-  // Adds the rule's force and its derivatives.
-  void Finish(const Vec3<Jet4>& force, Vec3d* total, Matrix36* derivatives) const {
-    *total += Vec3d{force.x.a, force.y.a, force.z.a};
+  // Adds the rule's derivatives.
+  void Finish(const Vec3<Jet4>& force, Matrix36* derivatives) const {
     Eigen::Matrix<double, 3, 4> by_sum;
     by_sum.row(0) = force.x.v.transpose();
     by_sum.row(1) = force.y.v.transpose();
@@ -68,86 +70,129 @@ struct RuleSum {
 };
 
 template <typename T>
-Vec3<T> SelfForceOf(const FlockForces& f, double cruising_speed, const Vec3d& pull,
-                    const Vec3<T>& x, const Vec3<T>& v) {
-  Vec3<T> force = CruiseSpeed::At({Constant<T>(f.cruise), Constant<T>(cruising_speed)}, x, v);
-  if (f.up_in_cam) {
-    const Vec3d& up = *f.up_in_cam;
-    const T climb = v.x * up.x + v.y * up.y + v.z * up.z;
-    const T sink = Level::At({Constant<T>(f.level)}, x, Vec3<T>{T(0.0), T(0.0), climb}).z;
-    force += Vec3<T>{sink * up.x, sink * up.y, sink * up.z};
+struct SelfParameters {
+  T log_speed, cruise, drive, level, goal, range;
+  Vec3<T> target;
+};
+
+template <typename T>
+Vec3<T> SelfForceOf(const SelfParameters<T>& p, const std::optional<Vec3d>& up, const Vec3<T>& x,
+                    const Vec3<T>& v) {
+  using std::exp;
+  Vec3<T> force = CruiseSpeed::At({p.cruise, p.drive * exp(p.log_speed)}, x, v);
+  if (up) {
+    const T climb = v.x * up->x + v.y * up->y + v.z * up->z;
+    const T sink = Level::At({p.level}, x, Vec3<T>{T(0.0), T(0.0), climb}).z;
+    force += Vec3<T>{sink * up->x, sink * up->y, sink * up->z};
   }
-  force += Vec3<T>{f.spring * (f.center.x - x.x) + pull.x, f.spring * (f.center.y - x.y) + pull.y,
-                   f.spring * (f.center.z - x.z) + pull.z};
+  force += Attraction::At({p.goal, p.target, p.range}, x, v);
   return force;
+}
+
+template <int Rows, typename Jet>
+void CopyDerivatives(const Vec3<Jet>& force, int first,
+                     Eigen::Ref<Eigen::Matrix<double, 3, Rows>> out) {
+  out.row(0) = force.x.v.template segment<Rows>(first).transpose();
+  out.row(1) = force.y.v.template segment<Rows>(first).transpose();
+  out.row(2) = force.z.v.template segment<Rows>(first).transpose();
 }
 
 }  // namespace
 
-Vec3d FlockForces::PullAt(double time) const {
-  if (pull.empty()) return {};
-  const double place = std::clamp(time / kPullKnotTime, 0.0, static_cast<double>(pull.size()) - 1);
-  const std::size_t left = std::min(static_cast<std::size_t>(place), pull.size() - 1);
-  const std::size_t right = std::min(left + 1, pull.size() - 1);
-  const double share = place - static_cast<double>(left);
-  return (1 - share) * pull[left] + share * pull[right];
-}
-
-Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, Matrix36* derivatives) {
-  if (derivatives == nullptr) {
-    const auto pairs = MakeBoidsPairs<double>(ParametersOf(forces), forces.Taper());
-    BoidsPairs<double>::Sums sums;
-    for (const Offset& o : offsets) sums += pairs.Pair(o.dx, o.dv);
-    return pairs.Finish(sums);
+FlockForces FlockForces::Usual(const Vec3d& center, double speed, double duration) {
+  // The simulator's birds, at 10 m/s; and a goal that makes them circle within some 15 m.
+  const BoidsParameters<double> birds;
+  constexpr double kSpeed = 10, kTaper = 3, kDrive = 1.1, kGoal = 0.5, kRange = 20;
+  const double larger = speed / kSpeed;
+  const std::array<double, kForceScalars> usual = {
+      larger * birds.d_s, larger * birds.d_v, larger * kTaper, birds.alpha_s, birds.alpha_c,
+      birds.alpha_a,      birds.cruise,       kDrive,          birds.level,   kGoal,
+      larger * kRange};
+  FlockForces f;
+  const int knots = 2 + static_cast<int>(duration / kTargetKnotTime);
+  f.unknowns.resize(kForceScalars + 3 * knots);
+  for (int k = 0; k < kForceScalars; ++k) {
+    f.unknowns[k] = std::log(usual[static_cast<std::size_t>(k)]);
   }
-  const auto pairs = MakeBoidsPairs<Jet6>(ParametersOf(forces), Jet6(forces.Taper()));
-  RuleSum separation, cohesion, alignment;
-  for (std::size_t j = 0; j < offsets.size(); ++j) {
-    const auto shares = pairs.Pair(Seeded(offsets[j].dx, 0), Seeded(offsets[j].dv, 3));
-    separation.Add(shares.separation);
-    cohesion.Add(shares.cohesion);
-    alignment.Add(shares.alignment);
-    derivatives[j].setZero();
+  for (int k = 0; k < knots; ++k) {
+    f.unknowns.segment<3>(kForceScalars + 3 * k) << center.x, center.y, center.z;
   }
-  const auto rules = MakeBoidsPairs<Jet4>(ParametersOf(forces), Jet4(forces.Taper()));
-  Vec3d total;
-  separation.Finish(Separation::Finish(rules.separation, separation.AsJets()), &total, derivatives);
-  cohesion.Finish(Cohesion::Finish(rules.cohesion, cohesion.AsJets()), &total, derivatives);
-  alignment.Finish(Alignment::Finish(rules.alignment, alignment.AsJets()), &total, derivatives);
-  return total;
+  return f;
 }
 
-Vec3d SelfForce(const FlockForces& forces, double cruising_speed, double time, const Vec3d& x,
-                const Vec3d& v, Matrix36* derivative) {
-  const Vec3d pull = forces.PullAt(time);
-  if (derivative == nullptr) return SelfForceOf(forces, cruising_speed, pull, x, v);
-  const Vec3<Jet6> f = SelfForceOf(forces, cruising_speed, pull, Seeded(x, 0), Seeded(v, 3));
-  derivative->row(0) = f.x.v.transpose();
-  derivative->row(1) = f.y.v.transpose();
-  derivative->row(2) = f.z.v.transpose();
-  return {f.x.a, f.y.a, f.z.a};
+double FlockForces::operator[](ForceUnknown k) const { return std::exp(unknowns[k]); }
+
+FlockForces::Share FlockForces::ShareAt(double time) const {
+  const double place = std::clamp(time / kTargetKnotTime, 0.0, target_knots() - 1.0);
+  const int knot = std::min(static_cast<int>(place), target_knots() - 2);
+  return {knot, place - knot};
 }
 
-std::array<Vec3d, kForceGains> UnitForces(const FlockForces& forces, double cruising_speed,
-                                          std::span<const Offset> offsets, const Vec3d& x,
-                                          const Vec3d& v) {
-  FlockForces unit = forces;
-  unit.alpha_s = unit.alpha_c = unit.alpha_a = 1;
-  const auto pairs = MakeBoidsPairs<double>(ParametersOf(unit), unit.Taper());
+Vec3d FlockForces::TargetAt(double time) const {
+  const Share share = ShareAt(time);
+  const double* at = &unknowns[kForceScalars + 3 * share.knot];
+  return (1 - share.next) * Vec3d{at[0], at[1], at[2]} + share.next * Vec3d{at[3], at[4], at[5]};
+}
+
+Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, Matrix36* by_offsets,
+                PairUnknownsMatrix* by_unknowns) {
+  const auto value = [&forces](ForceUnknown k) { return forces[k]; };
+  const auto plain = PairsOf<double>(value);
   BoidsPairs<double>::Sums sums;
-  for (const Offset& o : offsets) sums += pairs.Pair(o.dx, o.dv);
-  std::array<Vec3d, kForceGains> result;
-  result[0] = Separation::Finish(pairs.separation, sums.separation);
-  result[1] = Cohesion::Finish(pairs.cohesion, sums.cohesion);
-  result[2] = Alignment::Finish(pairs.alignment, sums.alignment);
-  for (int rule = 0; rule < 3; ++rule) {
-    FlockForces alone;
-    alone.center = forces.center;
-    alone.up_in_cam = forces.up_in_cam;
-    (rule == 0 ? alone.cruise : rule == 1 ? alone.level : alone.spring) = 1;
-    result[static_cast<std::size_t>(3 + rule)] = SelfForceOf(alone, cruising_speed, {}, x, v);
+  for (const Offset& o : offsets) sums += plain.Pair(o.dx, o.dv);
+  if (by_offsets != nullptr) {
+    const auto pairs = PairsOf<Jet6>([&](ForceUnknown k) { return Jet6(forces[k]); });
+    RuleSum separation, cohesion, alignment;
+    for (std::size_t j = 0; j < offsets.size(); ++j) {
+      const auto shares =
+          pairs.Pair(Seeded<Jet6>(offsets[j].dx, 0), Seeded<Jet6>(offsets[j].dv, 3));
+      separation.Add(shares.separation);
+      cohesion.Add(shares.cohesion);
+      alignment.Add(shares.alignment);
+      by_offsets[j].setZero();
+    }
+    const auto rules = PairsOf<Jet4>([&](ForceUnknown k) { return Jet4(forces[k]); });
+    separation.Finish(Separation::Finish(rules.separation, separation.AsJets()), by_offsets);
+    cohesion.Finish(Cohesion::Finish(rules.cohesion, cohesion.AsJets()), by_offsets);
+    alignment.Finish(Alignment::Finish(rules.alignment, alignment.AsJets()), by_offsets);
   }
-  return result;
+  if (by_unknowns != nullptr) {
+    const auto pairs = PairsOf<JetP>([&](ForceUnknown k) {
+      using std::exp;
+      return exp(JetP(forces.unknowns[k], k));
+    });
+    BoidsPairs<JetP>::Sums total;
+    const auto constant = [](const Vec3d& v) {
+      return Vec3<JetP>{JetP(v.x), JetP(v.y), JetP(v.z)};
+    };
+    for (const Offset& o : offsets) total += pairs.Pair(constant(o.dx), constant(o.dv));
+    CopyDerivatives<kPairUnknowns>(pairs.Finish(total), 0, *by_unknowns);
+  }
+  return plain.Finish(sums);
+}
+
+Vec3d SelfForce(const FlockForces& forces, double log_speed, double time, const Vec3d& x,
+                const Vec3d& v, SelfDerivatives* derivatives) {
+  const Vec3d target = forces.TargetAt(time);
+  if (derivatives == nullptr) {
+    return SelfForceOf<double>({log_speed, forces[kLogCruise], forces[kLogDrive], forces[kLogLevel],
+                                forces[kLogGoal], forces[kLogRange], target},
+                               forces.up_in_cam, x, v);
+  }
+  constexpr int kOwn = 6, kFirst = kOwn + 1, kTarget = kFirst + kSelfUnknowns;
+  const auto unknown = [&](ForceUnknown k) {
+    using std::exp;
+    return exp(JetS(forces.unknowns[k], kFirst + k - kPairUnknowns));
+  };
+  const Vec3<JetS> f = SelfForceOf<JetS>(
+      {JetS(log_speed, kOwn), unknown(kLogCruise), unknown(kLogDrive), unknown(kLogLevel),
+       unknown(kLogGoal), unknown(kLogRange), Seeded<JetS>(target, kTarget)},
+      forces.up_in_cam, Seeded<JetS>(x, 0), Seeded<JetS>(v, 3));
+  CopyDerivatives<6>(f, 0, derivatives->by_state);
+  derivatives->by_log_speed << f.x.v[kOwn], f.y.v[kOwn], f.z.v[kOwn];
+  CopyDerivatives<kSelfUnknowns>(f, kFirst, derivatives->by_unknowns);
+  CopyDerivatives<3>(f, kTarget, derivatives->by_target);
+  return {f.x.a, f.y.a, f.z.a};
 }
 
 }  // namespace flocklift::internal

@@ -4,34 +4,59 @@
 // What the flock does to one of its animals, by the terms of boids that the simulator runs
 // (simulate/flock/boids.h), with smooth edges and derivatives. In the axes of the camera:
 //   F_i = separation + cohesion + alignment                      (of its neighbours)
-//       + cruise (m_i - |v|) v/|v| - level (v . up) up + spring (center - x) + pull(t)
-// spring and pull(t), linear between knots, stand for a goal that nobody has told.
+//       + cruise (d m_i - |v|) v/|v| - level (v . up) up + goal g / sqrt(1 + |g|^2 / range^2)
+// m_i is the animal's mean speed: what it would fly alone is that times d, `drive`. g = target(t) -
+// x leads to a goal that nobody has told, linear between knots of time.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_FLOCK_FORCES_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_FLOCK_FORCES_H_
 
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "simulate/core/vec3.h"
 
 namespace flocklift::internal {
 
-inline constexpr double kPullKnotTime = 2;  // [s]
+// Places among the unknowns of the forces: logarithms of all that is positive, those of the
+// neighbours' forces first; then the target's knots, three values each [m].
+enum ForceUnknown {
+  kLogDs,
+  kLogDv,
+  kLogTaper,
+  kLogAlphaS,
+  kLogAlphaC,
+  kLogAlphaA,
+  kLogCruise,
+  kLogDrive,
+  kLogLevel,
+  kLogGoal,
+  kLogRange,
+  kForceScalars,
+};
+inline constexpr int kPairUnknowns = kLogCruise, kSelfUnknowns = kForceScalars - kPairUnknowns;
+inline constexpr double kTargetKnotTime = 4;  // [s]
+// Lengths grow with the scale of the scene.
+constexpr bool IsLength(int unknown) { return unknown <= kLogTaper || unknown == kLogRange; }
 
 struct FlockForces {
-  double d_s = 4, d_v = 12;                                                         // [m]
-  double alpha_s = 0, alpha_c = 0, alpha_a = 0, cruise = 0, level = 0, spring = 0;  // as in boids
-  Vec3d center;                                                                     // [m]
-  std::vector<Vec3d> pull;                                                          // [m/s^2]
+  Eigen::VectorXd unknowns;
   std::optional<Vec3d> up_in_cam;
 
-  double Taper() const { return 0.4 * d_s; }  // of both radii [m]
-  double Reach() const { return d_v + 0.5 * Taper(); }
-  Vec3d PullAt(double time) const;
+  // Of usual birds of that speed [m/s], with the target at `center`, for so many seconds.
+  static FlockForces Usual(const Vec3d& center, double speed, double duration);
+
+  int size() const { return static_cast<int>(unknowns.size()); }
+  int target_knots() const { return (size() - kForceScalars) / 3; }
+  double operator[](ForceUnknown k) const;  // as it is, not its logarithm
+  double Reach() const { return (*this)[kLogDv] + 0.5 * (*this)[kLogTaper]; }
+  struct Share {  // of the target at one time
+    int knot;     // and the next
+    double next;  // weight of the next
+  };
+  Share ShareAt(double time) const;
+  Vec3d TargetAt(double time) const;
 };
 
 // x_j - x_i and v_j - v_i.
@@ -41,19 +66,21 @@ struct Offset {
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-// The force of neighbours; with `derivatives` (one for each offset), those by (dx, dv).
-Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, Matrix36* derivatives);
+// The force of neighbours; where they are not null, its derivatives by each one's (dx, dv), and by
+// the first kPairUnknowns unknowns.
+using PairUnknownsMatrix = Eigen::Matrix<double, 3, kPairUnknowns>;
+Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, Matrix36* by_offsets,
+                PairUnknownsMatrix* by_unknowns);
 
-// The rest; with `derivative`, that by (x, v).
-Vec3d SelfForce(const FlockForces& forces, double cruising_speed, double time, const Vec3d& x,
-                const Vec3d& v, Matrix36* derivative);
-
-// Separation, cohesion and alignment with unit gains, then cruise, level and spring with unit
-// gains: what the force is linear in.
-inline constexpr int kForceGains = 6;
-std::array<Vec3d, kForceGains> UnitForces(const FlockForces& forces, double cruising_speed,
-                                          std::span<const Offset> offsets, const Vec3d& x,
-                                          const Vec3d& v);
+// The rest, and its derivatives where they are wanted.
+struct SelfDerivatives {
+  Matrix36 by_state;                                    // (x, v)
+  Eigen::Vector3d by_log_speed;                         // log m_i
+  Eigen::Matrix<double, 3, kSelfUnknowns> by_unknowns;  // from kLogCruise on
+  Eigen::Matrix3d by_target;
+};
+Vec3d SelfForce(const FlockForces& forces, double log_speed, double time, const Vec3d& x,
+                const Vec3d& v, SelfDerivatives* derivatives);
 
 }  // namespace flocklift::internal
 

@@ -267,9 +267,20 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
     }
     minimize(options.max_iterations, finally);
   }
-  if (refine) refine({segments, belief, first_frame, state.model, &state.birds, &state.shared});
+  std::optional<DepthPosterior> posterior;
+  if (refine) {
+    refine({segments, belief, first_frame, state.model, &state.birds, &state.shared, &posterior});
+  }
   report.final_cost = solver.Cost();
   const Eigen::MatrixXd covariance = ReadOut(&state, &solver, &solved.result);
+  if (posterior) {
+    report.scale_sd = posterior->scale_sd;
+    for (std::size_t i = 0; i < state.birds.size(); ++i) {
+      for (std::size_t k = 0; k < posterior->sd_log_depth[i].size(); ++k) {
+        solved.result.paths[i][k].sd_log_depth = posterior->sd_log_depth[i][k];
+      }
+    }
+  }
   CollectTerms(state, &report);
   solved.belief = {state.shared.head<kFlockScalars>(),
                    covariance.topLeftCorner<kFlockScalars, kFlockScalars>().inverse()};

@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "reconstruct/initialize/segments.h"
 #include "reconstruct/knowledge.h"
@@ -27,8 +28,14 @@ struct SolvedWindow {
   Belief belief;  // in the flock's first four unknowns, that of other windows included
 };
 
+// How well depths are known: sd of the log depth at every sighting, by segment, and of their mean.
+struct DepthPosterior {
+  std::vector<std::vector<double>> sd_log_depth;
+  double scale_sd = 0;
+};
+
 // A window when the batch method is done with it, for a method that goes on from there and leaves
-// its own paths.
+// its own paths, and their posterior where that is not the batch method's.
 struct WindowToRefine {
   const Segments& segments;
   const std::optional<Belief>& belief;
@@ -36,6 +43,7 @@ struct WindowToRefine {
   const BatchModel& model;
   std::vector<Bird>* birds = nullptr;
   Eigen::VectorXd* shared = nullptr;
+  std::optional<DepthPosterior>* posterior = nullptr;
 };
 using WindowRefiner = std::function<void(const WindowToRefine&)>;
 

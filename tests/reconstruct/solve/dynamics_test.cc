@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <vector>
 
 #include "reconstruct/solve/coupled_flock.h"
 #include "reconstruct/solve/hidden_sightings.h"
@@ -58,61 +60,93 @@ TEST(HiddenSightings, BetterMeansByMoreThanItsError) {
   EXPECT_FALSE(internal::PredictsBetter({}, {}));
 }
 
-// Gradient of the whole coupled cost against differences, in random directions.
+// All animals that `window` holds.
+std::vector<int> AllOf(const internal::WindowToRefine& window) {
+  std::vector<int> all(window.birds->size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+// Gradient of the whole coupled cost against differences, in random directions; then with some of
+// the animals at rest.
 TEST(CoupledFlock, GradientIsThatOfDifferences) {
   const FlockSpec spec{.count = 5, .frames = 40};
   const Segments segments = Seen(spec);
-  bool asked = false;
+  int asked = 0;
+  const auto check = [&](const internal::WindowToRefine& window, const std::vector<int>& moving) {
+    ++asked;
+    internal::CoupledFlock flock(window.model, moving, window.birds, window.shared);
+    flock.noise = {.sd = 2, .time = 0.7};
+    Rng rng(4);
+    for (double& x : flock.forces.unknowns) x += 0.1 * rng.Normal();
+    flock.Relinearize();
+    const Eigen::VectorXd gradient = flock.Gradient();
+    const auto move = [&](const Eigen::VectorXd& d, double step) {
+      Eigen::Index at = 0;
+      for (const int i : moving) {
+        internal::Bird& bird = (*window.birds)[static_cast<std::size_t>(i)];
+        for (double& p : bird.path) p += step * d[at++];
+        for (double& p : bird.own) p += step * d[at++];
+      }
+      for (double& p : *window.shared) p += step * d[at++];
+      for (double& p : flock.forces.unknowns) p += step * d[at++];
+      EXPECT_EQ(at, d.size());
+    };
+    for (int trial = 0; trial < 5; ++trial) {
+      Eigen::VectorXd d(gradient.size());
+      for (double& x : d) x = rng.Normal();
+      constexpr double kStep = 1e-7;
+      move(d, kStep);
+      const double up = flock.Cost();
+      move(d, -2 * kStep);
+      const double down = flock.Cost();
+      move(d, kStep);
+      const double slope = (up - down) / (2 * kStep);
+      EXPECT_NEAR(slope / gradient.dot(d), 1, 1e-4);
+    }
+  };
   internal::SolveWindow({.max_iterations = 3}, Known(spec), segments, std::nullopt, 1, kFps, 1, {},
                         [&](const internal::WindowToRefine& window) {
-                          asked = true;
-                          internal::CoupledFlock flock(window.model, window.birds, window.shared);
-                          flock.noise = {.sd = 2, .time = 0.7};
-                          flock.forces.alpha_s = 1.2;
-                          flock.forces.alpha_c = 0.2;
-                          flock.forces.alpha_a = 0.7;
-                          flock.forces.cruise = 0.5;
-                          flock.forces.spring = 0.2;
-                          flock.FreezeNeighbours();
-                          const Eigen::VectorXd gradient = flock.Gradient();
-                          const auto move = [&](const Eigen::VectorXd& d, double step) {
-                            Eigen::Index at = 0;
-                            for (internal::Bird& bird : *window.birds) {
-                              for (double& p : bird.path) p += step * d[at++];
-                              for (double& p : bird.own) p += step * d[at++];
-                            }
-                            *window.shared += step * d.tail(window.shared->size());
-                          };
-                          Rng rng(4);
-                          for (int trial = 0; trial < 5; ++trial) {
-                            Eigen::VectorXd d(gradient.size());
-                            for (double& x : d) x = rng.Normal();
-                            constexpr double kStep = 1e-7;
-                            move(d, kStep);
-                            const double up = flock.Cost();
-                            move(d, -2 * kStep);
-                            const double down = flock.Cost();
-                            move(d, kStep);
-                            const double slope = (up - down) / (2 * kStep);
-                            EXPECT_NEAR(slope / gradient.dot(d), 1, 1e-4);
-                          }
+                          check(window, AllOf(window));
+                          check(window, {0, 1, 3});
                         });
-  EXPECT_TRUE(asked);
+  EXPECT_EQ(asked, 2);
 }
 
-TEST(CoupledFlock, MinimizeLowersTheCostToWhereTheGradientIsSmall) {
+TEST(CoupledFlock, MinimizeLowersTheCostToWhereItStays) {
   const FlockSpec spec{.count = 6, .frames = 60};
   internal::SolveWindow({}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
                         [&](const internal::WindowToRefine& window) {
-                          internal::CoupledFlock flock(window.model, window.birds, window.shared);
-                          flock.FitRadii();
+                          internal::CoupledFlock flock(window.model, AllOf(window), window.birds,
+                                                       window.shared);
+                          const double at_first = flock.Cost();
+                          flock.FitForces(20);
                           const double before = flock.Cost();
-                          flock.Minimize(30, {});
+                          EXPECT_LT(before, at_first);
+                          flock.Minimize(30);
                           const double after = flock.Cost();
                           EXPECT_LT(after, before);
-                          flock.Minimize(30, {});
+                          flock.Minimize(30);
                           EXPECT_NEAR(flock.Cost(), after, 1e-2 * after);
                         });
+}
+
+// Those that do not move stay, and the forces with them where they are not free.
+TEST(CoupledFlock, MovesOnlyWhatIsFree) {
+  const FlockSpec spec{.count = 5, .frames = 60};
+  internal::SolveWindow(
+      {}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
+      [&](const internal::WindowToRefine& window) {
+        internal::CoupledFlock flock(window.model, {1, 2}, window.birds, window.shared);
+        flock.flock_is_free = false;
+        const std::vector<internal::Bird> before = *window.birds;
+        const Eigen::VectorXd shared = *window.shared, unknowns = flock.forces.unknowns;
+        flock.Minimize(4);
+        EXPECT_EQ((*window.birds)[0].path, before[0].path);
+        EXPECT_NE((*window.birds)[1].path, before[1].path);
+        EXPECT_NEAR((*window.shared - shared).norm(), 0, 1e-6);
+        EXPECT_NEAR((flock.forces.unknowns - unknowns).norm(), 0, 1e-6);
+      });
 }
 
 std::map<std::pair<Id, int>, double> Depths(const DynamicsResult& result,
