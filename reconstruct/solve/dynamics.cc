@@ -107,14 +107,15 @@ void Polish(const BatchModel& model, const std::vector<int>& group, bool first, 
   if (posterior == nullptr) return;
   const CoupledFlock::DepthSds sds = coupled.Depths();
   if (sds.at.empty()) return;
-  if (first) *posterior = DepthPosterior{sds.at, sds.mean};
-  if (first || !*posterior) return;
-  // What the first group does not know of the scale the others, which follow it, do not know.
+  if (!*posterior) {
+    *posterior = DepthPosterior{std::vector<std::vector<double>>(flock->birds.size()), {}};
+  }
   for (const int i : group) {
     const auto at = static_cast<std::size_t>(i);
     (*posterior)->sd_log_depth[at] = sds.at[at];
-    for (double& sd : (*posterior)->sd_log_depth[at]) sd = std::hypot(sd, (*posterior)->scale_sd);
   }
+  // Animals that stand still meanwhile would hold the scale.
+  if (group.size() == flock->birds.size()) (*posterior)->scale_sd = sds.mean;
 }
 
 // How far the depths of two solutions are apart after one common scale: of every animal in the

@@ -274,10 +274,12 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   report.final_cost = solver.Cost();
   const Eigen::MatrixXd covariance = ReadOut(&state, &solver, &solved.result);
   if (posterior) {
-    report.scale_sd = posterior->scale_sd;
+    const double common = posterior->scale_sd ? 0 : report.scale_sd;
+    report.scale_sd = posterior->scale_sd.value_or(report.scale_sd);
     for (std::size_t i = 0; i < state.birds.size(); ++i) {
-      for (std::size_t k = 0; k < posterior->sd_log_depth[i].size(); ++k) {
-        solved.result.paths[i][k].sd_log_depth = posterior->sd_log_depth[i][k];
+      const std::vector<double>& sds = posterior->sd_log_depth[i];
+      for (std::size_t k = 0; k < sds.size(); ++k) {
+        solved.result.paths[i][k].sd_log_depth = std::hypot(sds[k], common);
       }
     }
   }

@@ -28,10 +28,11 @@ struct SolvedWindow {
   Belief belief;  // in the flock's first four unknowns, that of other windows included
 };
 
-// How well depths are known: sd of the log depth at every sighting, by segment, and of their mean.
+// How well depths are known: sd of the log depth at every sighting, by segment (empty: as the batch
+// method has it), and of their mean; without that, given it.
 struct DepthPosterior {
   std::vector<std::vector<double>> sd_log_depth;
-  double scale_sd = 0;
+  std::optional<double> scale_sd;
 };
 
 // A window when the batch method is done with it, for a method that goes on from there and leaves
