@@ -135,46 +135,6 @@ Eigen::VectorXd ArrowSystem::BackSubstitute(const Eigen::VectorXd& shared_step) 
   return step;
 }
 
-double ArrowSystem::Diagonal(int i) const {
-  return i < n_ ? band_[At(i, i)] : corner_(i - n_, i - n_);
-}
-
-void ArrowSystem::AddProduct(const Eigen::VectorXd& x, const Eigen::VectorXd& shared,
-                             Eigen::VectorXd* product, Eigen::VectorXd* shared_product) const {
-  for (int i = 0; i < n_; ++i) {
-    const int low = std::max(0, i - kBand + 1);
-    const double* row = &band_[At(i, low)] - low;
-    double sum = row[i] * x[i];
-    for (int j = low; j < i; ++j) {
-      sum += row[j] * x[j];
-      (*product)[j] += row[j] * x[i];
-    }
-    (*product)[i] += sum;
-  }
-  Eigen::VectorXd border(k_);
-  border << x.tail(own_), shared;
-  product->head(n_).noalias() += border_.transpose() * border;
-  const Eigen::VectorXd of_border = border_ * x.head(n_) + corner_ * border;
-  product->tail(own_) += of_border.head(own_);
-  *shared_product += of_border.tail(k_ - own_);
-}
-
-Eigen::VectorXd ArrowSystem::ReduceGradient(const Eigen::VectorXd& gradient) {
-  reduced_gradient_ = gradient.head(n_);
-  for (int i = 0; i < n_; ++i) {
-    for (int j = std::max(0, i - kBand + 1); j < i; ++j) {
-      reduced_gradient_[i] -= factor_[At(i, j)] * reduced_gradient_[j];
-    }
-    reduced_gradient_[i] /= factor_[At(i, i)];
-  }
-  const Eigen::VectorXd border = -(reduced_border_ * reduced_gradient_);
-  own_gradient_ = gradient.tail(own_) + border.head(own_);
-  Eigen::VectorXd own = own_gradient_;
-  own_factor_.triangularView<Eigen::Lower>().solveInPlace(own);
-  own_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(own);
-  return border.tail(k_ - own_) - own_to_shared_.transpose() * own;
-}
-
 ArrowSystem::Posterior ArrowSystem::Covariance(const Eigen::MatrixXd& shared_covariance) const {
   Posterior posterior;
   const int shared = k_ - own_;

@@ -67,16 +67,6 @@ class ArrowSystem {
   // unknowns, and what the quadratic model of this path then falls by (own share).
   Eigen::VectorXd BackSubstitute(const Eigen::VectorXd& shared_step) const;
 
-  // Gradient and products with the undamped matrix, for solvers that couple several paths: a vector
-  // of a path holds n values, then its own scalars; `shared` is the flock's part.
-  const Eigen::VectorXd& gradient() const { return gradient_; }  // n + k
-  double Diagonal(int i) const;                                  // of the n + own unknowns
-  // *product += A x, *shared_product += the flock's rows.
-  void AddProduct(const Eigen::VectorXd& x, const Eigen::VectorXd& shared, Eigen::VectorXd* product,
-                  Eigen::VectorXd* shared_product) const;
-  // After Reduce: another gradient (n + own values) in its place. Returns the flock's share.
-  Eigen::VectorXd ReduceGradient(const Eigen::VectorXd& gradient);
-
   // After Reduce(0): covariances, given that of the flock's unknowns.
   struct Posterior {
     std::vector<double> band;  // n x 12: of unknowns i and i - 11 .. i, column 11 the variance

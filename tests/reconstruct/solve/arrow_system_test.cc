@@ -67,41 +67,6 @@ TEST(ArrowSystem, StepIsThatOfTheDenseSystem) {
   EXPECT_LT((own - dense.head(kUnknowns + kOwn)).norm(), 1e-9 * dense.norm());
 }
 
-TEST(ArrowSystem, ProductIsThatOfTheDenseSystem) {
-  const Both both = RandomSystem();
-  const Eigen::MatrixXd normal = both.jacobian.transpose() * both.jacobian;
-  Rng rng(8);
-  Eigen::VectorXd x(kUnknowns + kOwn + kShared);
-  for (double& value : x) value = rng.Normal();
-  const Eigen::VectorXd dense = normal * x;
-  Eigen::VectorXd product = Eigen::VectorXd::Zero(kUnknowns + kOwn);
-  Eigen::VectorXd shared = Eigen::VectorXd::Zero(kShared);
-  both.arrow.AddProduct(x.head(kUnknowns + kOwn), x.tail(kShared), &product, &shared);
-  EXPECT_LT((product - dense.head(kUnknowns + kOwn)).norm(), 1e-12 * dense.norm());
-  EXPECT_LT((shared - dense.tail(kShared)).norm(), 1e-12 * dense.norm());
-  for (int i = 0; i < kUnknowns + kOwn; ++i) {
-    EXPECT_NEAR(both.arrow.Diagonal(i), normal(i, i), 1e-12 * normal(i, i));
-  }
-}
-
-TEST(ArrowSystem, AnotherGradientTakesThePlaceOfItsOwn) {
-  Both both = RandomSystem();
-  const Eigen::MatrixXd normal = both.jacobian.transpose() * both.jacobian;
-  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(kShared, kShared);
-  Eigen::VectorXd unused = Eigen::VectorXd::Zero(kShared);
-  ASSERT_TRUE(both.arrow.Reduce(0, &matrix, &unused));
-  Rng rng(9);
-  Eigen::VectorXd gradient(kUnknowns + kOwn + kShared);
-  for (double& value : gradient) value = rng.Normal();
-  const Eigen::VectorXd dense = -normal.ldlt().solve(gradient);
-  const Eigen::VectorXd reduced =
-      gradient.tail(kShared) + both.arrow.ReduceGradient(gradient.head(kUnknowns + kOwn));
-  const Eigen::VectorXd shared = -matrix.llt().solve(reduced);
-  EXPECT_LT((shared - dense.tail(kShared)).norm(), 1e-9 * dense.norm());
-  EXPECT_LT((both.arrow.BackSubstitute(shared) - dense.head(kUnknowns + kOwn)).norm(),
-            1e-9 * dense.norm());
-}
-
 // Damping multiplies the diagonal, but adds to every third unknown, the log depths.
 TEST(ArrowSystem, DampingIsMarquardtsAndLevenbergs) {
   Both both = RandomSystem();

@@ -149,6 +149,31 @@ TEST(CoupledFlock, MovesOnlyWhatIsFree) {
       });
 }
 
+// A sd for every sighting; more noise leaves depths less certain.
+TEST(CoupledFlock, ItsDepthsAreAsCertainAsItsNoiseLetsThemBe) {
+  const FlockSpec spec{.count = 5, .frames = 90};
+  internal::SolveWindow({}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
+                        [&](const internal::WindowToRefine& window) {
+                          internal::CoupledFlock flock(window.model, AllOf(window), window.birds,
+                                                       window.shared);
+                          flock.noise.sd = 1;
+                          const auto calm = flock.Depths();
+                          flock.noise.sd = 4;
+                          const auto noisy = flock.Depths();
+                          ASSERT_EQ(calm.at.size(), window.birds->size());
+                          ASSERT_EQ(noisy.at.size(), window.birds->size());
+                          for (std::size_t i = 0; i < calm.at.size(); ++i) {
+                            ASSERT_EQ(calm.at[i].size(), (*window.birds)[i].places.size());
+                            for (std::size_t k = 0; k < calm.at[i].size(); ++k) {
+                              EXPECT_GT(calm.at[i][k], 0);
+                              EXPECT_LT(calm.at[i][k], noisy.at[i][k]);
+                            }
+                          }
+                          EXPECT_GT(calm.mean, 0);
+                          EXPECT_LT(calm.mean, calm.at[0][0]);
+                        });
+}
+
 std::map<std::pair<Id, int>, double> Depths(const DynamicsResult& result,
                                             const Segments& segments) {
   std::map<std::pair<Id, int>, double> depths;
