@@ -9,66 +9,28 @@
 #include <limits>
 #include <optional>
 
+#include "reconstruct/fit/limited_velocity.h"
+#include "reconstruct/fit/state_transition.h"
 #include "simulate/core/check.h"
-#include "simulate/forces/speed.h"
 
 namespace flocklift {
 namespace {
 
 using Matrix3 = Eigen::Matrix3d;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Gain = Eigen::Matrix<double, 6, 3>;
 using Vector3 = Eigen::Vector3d;
 
-constexpr int kContinuousSteps = 2;  // a frame, when time is continuous
-constexpr double kSettled = 1e-12;   // relative change of a covariance that counts as none
+constexpr double kSettled = 1e-12;  // relative change of a covariance that counts as none
+// A speed at its limit is never held for better known than by this share of a step's noise: the
+// rest is tails that are no Gaussian's, and a gain that trusted them would run away.
+constexpr double kLeastKick = 0.2;
+constexpr int kForgotten = 4;  // frames after which an innovation tells nothing of a limit any more
 // Positions are never taken for better than this share of how far the noise moves them in a frame:
 // the gain would be singular.
 constexpr double kLeastVariance = 1e-6;
 
 Vector3 AsEigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 Vec3d AsVec3(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-Matrix3 AsMatrix(const std::array<double, 9>& m) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(m.data());
-}
-
-// How deviations from the mean and their covariance go over one frame.
-struct Transition {
-  Matrix6 deviation = Matrix6::Identity();
-  Matrix6 noise = Matrix6::Zero();
-};
-
-// `clamp`: what the model's speed limit lets through of a velocity's deviation.
-Transition TransitionOver(double dt, int substeps, double q, const OwnSlope& slope,
-                          const std::optional<Matrix3>& clamp) {
-  const int steps = substeps > 0 ? substeps : kContinuousSteps;
-  const double h = dt / steps;
-  const Matrix3 one = Matrix3::Identity(), dx = AsMatrix(slope.position),
-                dv = AsMatrix(slope.velocity);
-  Matrix6 step = Matrix6::Identity(), noise;
-  if (substeps > 0) {
-    step << one + h * h * dx, h * one + h * h * dv, h * dx, one + h * dv;
-    noise << h * h * one, h * one, h * one, one;
-    noise *= q * h;
-  } else {
-    Matrix6 rate;
-    rate << Matrix3::Zero(), one, dx, dv;
-    step += h * rate + 0.5 * h * h * rate * rate;
-    noise << h * h / 3 * one, h / 2 * one, h / 2 * one, one;
-    noise *= q * h;
-  }
-  if (clamp) step.bottomRows<3>() = *clamp * step.bottomRows<3>();
-  if (clamp && substeps > 0) {  // x moves by the clamped velocity
-    step.topRows<3>() << one, Matrix3::Zero();
-    step.topRows<3>() += h * step.bottomRows<3>();
-  }
-  Transition transition;
-  for (int k = 0; k < steps; ++k) {
-    transition.deviation = step * transition.deviation;
-    transition.noise = step * transition.noise * step.transpose() + noise;
-  }
-  return transition;
-}
 
 // One animal's estimate.
 struct Track {
@@ -79,7 +41,11 @@ struct Track {
   // What the last frame used, which the next one may use again.
   bool has_transition = false, settled = false;
   OwnSlope slope;
-  Transition transition;
+  StateTransition transition;
+  // Of this frame, in which a speed limit acts.
+  bool is_limited = false;
+  int until_forgotten = 0;  // frames for which its covariance is still of one that acted
+  StateStep step;
   Gain gain = Gain::Zero();
   Matrix3 innovation_covariance = Matrix3::Zero(), innovation_information = Matrix3::Zero();
   double log_determinant = 0;
@@ -93,6 +59,7 @@ class Filter {
         model_(model),
         theta_(theta),
         input_(input),
+        steps_(StepsAFrame(options.substeps)),
         q_(2 * noise.diffusion),
         variance_(noise.position_variance + kLeastVariance * q_ * std::pow(input.dt(), 3)),
         tracks_(static_cast<std::size_t>(input.animals())),
@@ -122,7 +89,6 @@ class Filter {
     v_.resize(n);
     a_.resize(n);
     slopes_.resize(n);
-    clamps_.assign(n, std::nullopt);
     for (std::size_t k = 0; k < n; ++k) {
       x_[k] = tracks_[indices_[k]].x;
       v_[k] = tracks_[indices_[k]].v;
@@ -133,11 +99,12 @@ class Filter {
       Track& track = tracks_[indices_[k]];
       track.x = x_[k];
       track.v = v_[k];
-      if (!track.has_transition || clamps_[k] || !(track.slope == slopes_[k])) {
+      if (track.is_limited) continue;  // step by step, in Move
+      if (!track.has_transition || !(track.slope == slopes_[k])) {
         track.slope = slopes_[k];
         track.transition =
-            TransitionOver(input_.dt(), options_.substeps, q_, track.slope, clamps_[k]);
-        track.has_transition = !clamps_[k];  // a clamp is of its frame alone
+            TransitionOver(MakeStateStep(input_.dt(), options_.substeps, q_, track.slope), steps_);
+        track.has_transition = true;
         track.settled = false;
       }
       if (track.settled) continue;
@@ -148,16 +115,16 @@ class Filter {
 
   void Move() {
     const bool continuous = options_.substeps <= 0;
-    const int steps = continuous ? kContinuousSteps : options_.substeps;
-    const double h = input_.dt() / steps;
+    const double h = input_.dt() / steps_;
     const std::size_t n = x_.size();
-    for (int step = 0; step < steps; ++step) {
+    for (const std::size_t i : indices_) tracks_[i].is_limited = false;
+    for (int step = 0; step < steps_; ++step) {
       model_.evaluate(theta_, x_, v_, a_,
                       step == 0 ? std::span<OwnSlope>(slopes_) : std::span<OwnSlope>());
       if (!continuous) {
         for (std::size_t k = 0; k < n; ++k) {
           v_[k] += h * a_[k];
-          Limit(k);
+          Limit(step, k);
           x_[k] += h * v_[k];
         }
         continue;
@@ -171,18 +138,50 @@ class Filter {
       for (std::size_t k = 0; k < n; ++k) {
         x_[k] = x0[k] + h * v0[k] + 0.5 * h * h * a_[k];
         v_[k] = v0[k] + h * a_[k];
-        Limit(k);
+        Limit(step, k);
       }
     }
   }
 
-  void Limit(std::size_t k) {
+  // What the speed limit makes of a mean and its covariance. From the first step of a frame on in
+  // which it may act, the covariance is taken along with the mean.
+  void Limit(int step, std::size_t k) {
     if (!range_) return;
+    Track& track = tracks_[indices_[k]];
     const double speed = Norm(v_[k]);
-    if (speed <= 0 || (speed >= range_->low && speed <= range_->high)) return;
-    v_[k] = SpeedLimit::Limit(SpeedLimit::Params<double>{range_->low, range_->high, 0.0}, v_[k]);
-    const Vector3 along = AsEigen(v_[k]) / Norm(v_[k]);
-    clamps_[k] = Norm(v_[k]) / speed * (Matrix3::Identity() - along * along.transpose());
+    if (!track.is_limited) {
+      const double variance = track.covariance.bottomRightCorner<3, 3>().trace() + q_ * input_.dt();
+      if (speed <= 0 || !IsNearLimit(*range_, speed, std::sqrt(variance))) return;
+      track.is_limited = true;
+      track.has_transition = track.settled = false;  // what acts here, acts in this frame alone
+      track.step = MakeStateStep(input_.dt(), options_.substeps, q_, slopes_[k]);
+      for (int before = 0; before < step; ++before) {
+        Kick(&track);
+        Drift(&track);
+      }
+    }
+    Kick(&track);
+    if (speed > 0) {
+      const LimitedVelocity limited =
+          LimitVelocity(*range_, AsEigen(v_[k]), track.covariance.bottomRightCorner<3, 3>(),
+                        kLeastKick * q_ * input_.dt() / steps_);
+      v_[k] = AsVec3(limited.mean);
+      if (limited.acts) track.until_forgotten = kForgotten;
+      Matrix6 kept = Matrix6::Identity();
+      kept.bottomRightCorner<3, 3>() = limited.kept;
+      track.covariance = kept * track.covariance * kept.transpose();
+      track.covariance.bottomRightCorner<3, 3>() += limited.noise;
+    }
+    Drift(&track);
+  }
+
+  static void Kick(Track* track) {
+    const StateStep& step = track->step;
+    track->covariance = step.kick * track->covariance * step.kick.transpose() + step.kick_noise;
+  }
+  static void Drift(Track* track) {
+    const Matrix6& drift = track->step.drift;
+    track->covariance = drift * track->covariance * drift.transpose();
   }
 
   void Correct(int frame, const std::vector<FilterInput::Sighting>& sightings) {
@@ -235,7 +234,9 @@ class Filter {
         {.frame = frame,
          .animal = sighting.animal,
          .value = {innovation.x(), innovation.y(), innovation.z()},
-         .covariance = {s(0, 0), s(0, 1), s(0, 2), s(1, 1), s(1, 2), s(2, 2)}});
+         .covariance = {s(0, 0), s(0, 1), s(0, 2), s(1, 1), s(1, 2), s(2, 2)},
+         .is_limited = track->until_forgotten > 0});
+    if (track->until_forgotten > 0) --track->until_forgotten;
   }
 
   void FindGain(Track* track) const {
@@ -265,13 +266,13 @@ class Filter {
   const ProcessModel& model_;
   const std::vector<double>& theta_;
   const FilterInput& input_;
+  int steps_;  // a frame
   double q_, variance_;
   std::vector<Track> tracks_;
   std::vector<LastSeen> last_;
   std::vector<std::size_t> indices_;  // of active tracks
   std::vector<Vec3d> x_, v_, a_;
   std::vector<OwnSlope> slopes_;
-  std::vector<std::optional<Matrix3>> clamps_;  // of those whose speed limit acted in the frame
   std::optional<SpeedRange> range_;
   FilterSweep sweep_;
 };

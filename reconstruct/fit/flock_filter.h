@@ -14,6 +14,10 @@
 // The process noise acts at every step h of the engine, v += h a + N(0, q h), x += h v, or, in
 // continuous time, as exactly integrated white noise.
 //
+// Where a speed limit may act, what it makes of a velocity's mean and covariance is taken step by
+// step (limited_velocity.h). The innovations' means are right there to 1e-4 m/s, but they are no
+// Gaussian's: S is an upper bound, and its dependence on the parameters says nothing.
+//
 // An animal enters at its second measured frame in a row, diffuse before, and leaves when it was
 // not measured for longer than `bridged_gap`. World frame, metres, seconds.
 
@@ -44,6 +48,7 @@ struct Innovation {
   int frame = 0, animal = 0;
   std::array<double, 3> value;       // eps [m]
   std::array<double, 6> covariance;  // S: xx, xy, xz, yy, yz, zz [m^2]
+  bool is_limited = false;           // does S know of a speed limit that acted?
 };
 
 struct FilterSweep {

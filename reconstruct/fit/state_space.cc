@@ -32,6 +32,12 @@ Matrix3 CovarianceOf(const Innovation& i) {
   return s;
 }
 
+double CostOf(const Vector3& value, const Matrix3& covariance) {
+  const Eigen::LLT<Matrix3> llt(covariance);
+  const Vector3 white = llt.matrixL().solve(value);
+  return 2 * std::log(llt.matrixL().toDenseMatrix().diagonal().prod()) + white.squaredNorm();
+}
+
 // phi = (theta, log q, log(s^2 + s0^2)).
 class Scoring {
  public:
@@ -146,8 +152,8 @@ class Scoring {
         const auto at = static_cast<std::size_t>(p);
         const Innovation& other = moved[at].innovations[k];
         const Vector3 slope = root * (ValueOf(other) - value) / differences_[at];
-        const Matrix3 change =
-            root * (CovarianceOf(other) - s) * root.transpose() / differences_[at];
+        Matrix3 change = root * (CovarianceOf(other) - s) * root.transpose() / differences_[at];
+        if (base.innovations[k].is_limited) change.setZero();
         rows.col(p) << slope,
             std::sqrt(0.5) * Eigen::Map<const Eigen::Matrix<double, 9, 1>>(change.data());
       }
@@ -233,12 +239,25 @@ class Scoring {
       }
       phi.back() = std::max(phi.back(), lowest_);
       FilterSweep next = SweepAt(phi);
-      if (!(next.cost <= sweep->cost)) continue;
+      if (!(CostBeside(*sweep, next) <= sweep->cost)) continue;
       phi_ = phi;
       *sweep = std::move(next);
       return true;
     }
     return false;
+  }
+
+  // -2 log likelihood of the next sweep, with this one's covariances where a limit acted: what the
+  // scoring descends.
+  static double CostBeside(const FilterSweep& sweep, const FilterSweep& next) {
+    double cost = next.cost;
+    for (std::size_t k = 0; k < sweep.innovations.size(); ++k) {
+      if (!sweep.innovations[k].is_limited) continue;
+      const Vector3 value = ValueOf(next.innovations[k]);
+      cost += CostOf(value, CovarianceOf(sweep.innovations[k])) -
+              CostOf(value, CovarianceOf(next.innovations[k]));
+    }
+    return cost;
   }
 
   void Describe(const FilterSweep& sweep, StateSpaceFit* fit) const {

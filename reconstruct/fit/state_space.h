@@ -7,7 +7,9 @@
 //   score  g_p  = sum  eps' S^-1 eps_p + tr(S^-1 S_p) / 2 - eps' S^-1 S_p S^-1 eps / 2
 //   information I_pr = sum  eps_p' S^-1 eps_r + tr(S^-1 S_p S^-1 S_r) / 2
 // eps_p, S_p derivatives by differences of whole sweeps, which see the gain's change too. The sd
-// are those of I^-1. Where s^2 goes to 0 it stays there and is no unknown any more.
+// are those of I^-1. Of innovations that know of a speed limit, which are no Gaussian's, the first
+// term alone is taken, from means that are right (quasi-likelihood: Wedderburn 1974). Where s^2
+// goes to 0 it stays there and is no unknown any more.
 //
 // For a flock that has forgotten its start, I of a drag gamma is (animals - 1) 3 T / (2 gamma), as
 // of a damped velocity that is known without error (of the reference flock, gamma = 20 alignment,

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -145,6 +146,97 @@ TEST(FlockFilter, TheTruthIsLikelierThanItsNeighbours) {
   // ... in the engine's own steps.
   EXPECT_LT(truth, Sweep(seen, noise, {.substeps = 0, .bridged_gap = 5}).cost);
   EXPECT_THROW(Sweep(seen, {}), std::invalid_argument);
+}
+
+// One animal on a line: pushed back until it is at the origin, and on afterwards, without slopes.
+struct Braking {
+  Trajectories seen;
+  ProcessModel model;
+  int held_from = 0, free_from = 0;  // first frame at the lowest speed, first away from it again
+};
+
+Braking FlyBraking(std::uint64_t seed) {
+  constexpr double kLow = 1, kPush = 2, kStep = 1.0 / 120, kNoise = 0.05;
+  Braking flown;
+  flown.model.evaluate = [](std::span<const double>, std::span<const Vec3d> x,
+                            std::span<const Vec3d>, std::span<Vec3d> a, std::span<OwnSlope> slope) {
+    for (std::size_t i = 0; i < x.size(); ++i) a[i] = {x[i].x < 0 ? -kPush : kPush, 0, 0};
+    std::fill(slope.begin(), slope.end(), OwnSlope{});
+  };
+  flown.model.speed_range = [](std::span<const double>) {
+    return SpeedRange{.low = kLow, .high = 100};
+  };
+  Rng rng(seed);
+  Vec3d x{-2.5, 0, 0}, v{2, 0, 0};
+  Trajectory trajectory;
+  for (int frame = 1; frame <= 100; ++frame) {
+    TrajectoryPoint point;
+    point.frame = frame;
+    point.position = x;
+    trajectory.points.push_back(point);
+    for (int step = 0; step < 4; ++step) {
+      const double noise = std::sqrt(kStep) * kNoise;
+      v += Vec3d{kStep * (x.x < 0 ? -kPush : kPush), 0, 0} +
+           noise * Vec3d{rng.Normal(), rng.Normal(), rng.Normal()};
+      if (Norm(v) < kLow) v = kLow / Norm(v) * v;
+      x += kStep * v;
+    }
+    if (flown.held_from == 0 && Norm(v) < kLow + 1e-9) flown.held_from = frame + 1;
+    if (flown.held_from > 0 && flown.free_from == 0 && Norm(v) > 1.2 * kLow) {
+      flown.free_from = frame + 1;
+    }
+  }
+  flown.seen.fps = 30;
+  flown.seen.trajectories = {trajectory};
+  return flown;
+}
+
+// The gain of an animal at its speed limit is that of its frame: away from the limit it is soon
+// what it would be without one, though the slopes are the same in every frame.
+TEST(FlockFilter, ALimitIsForgottenAfterItsFrame) {
+  Braking flown = FlyBraking(3);
+  ASSERT_GT(flown.held_from, 5);
+  ASSERT_GT(flown.free_from, flown.held_from + 10);
+  ASSERT_LT(flown.free_from, 80);
+  const FilterInput input(ObservedFlock(flown.seen, 30, 5));
+  const FlockNoise noise{.diffusion = 0.5 * 0.05 * 0.05, .position_variance = 0};
+  const FilterSweep sweep = RunFilter({}, flown.model, {}, noise, input);
+  flown.model.speed_range = nullptr;
+  const FilterSweep without = RunFilter({}, flown.model, {}, noise, input);
+  ASSERT_EQ(sweep.innovations.size(), without.innovations.size());
+  for (std::size_t k = 0; k < sweep.innovations.size(); ++k) {
+    const Innovation& innovation = sweep.innovations[k];
+    const double along = innovation.covariance[0], across = innovation.covariance[3];
+    const double free = without.innovations[k].covariance[0];
+    if (innovation.frame > flown.free_from + 15 || innovation.frame < flown.held_from - 5) {
+      EXPECT_NEAR(along, free, 1e-5 * free) << innovation.frame;
+      EXPECT_FALSE(innovation.is_limited) << innovation.frame;
+    } else if (innovation.frame > flown.held_from + 3 && innovation.frame < flown.held_from + 8) {
+      EXPECT_LT(along, 0.5 * free) << innovation.frame;
+      EXPECT_NEAR(across, free, 0.3 * free) << innovation.frame;
+      EXPECT_TRUE(innovation.is_limited) << innovation.frame;
+    }
+  }
+}
+
+// At the limit, and where it is reached and left, innovations along the way have mean 0.
+TEST(FlockFilter, ASpeedLimitLeavesInnovationsWithoutBias) {
+  double sum = 0, squares = 0, count = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const Braking flown = FlyBraking(seed);
+    const FilterInput input(ObservedFlock(flown.seen, 30, 5));
+    const FilterSweep sweep = RunFilter(
+        {}, flown.model, {}, {.diffusion = 0.5 * 0.05 * 0.05, .position_variance = 0}, input);
+    for (const Innovation& innovation : sweep.innovations) {
+      if (innovation.frame < flown.held_from - 5 || !innovation.is_limited) continue;
+      const double white = innovation.value[0] / std::sqrt(innovation.covariance[0]);
+      sum += white;
+      squares += white * white;
+      count += 1;
+    }
+  }
+  EXPECT_LT(std::abs(sum), 3.5 * std::sqrt(squares));
+  EXPECT_LT(squares / count, 1.2);
 }
 
 TEST(ProcessModel, ItsSlopesAreThoseOfItsAccelerations) {
