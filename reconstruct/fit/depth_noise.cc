@@ -49,6 +49,17 @@ Vec3d DepthDirection(const std::optional<Camera>& camera, int frame, const Vec3d
   return std::abs(in_cam.z) > 1e-9 ? (position - eye) / in_cam.z : Normalized(position - eye);
 }
 
+DepthShare DepthShareOf(const std::optional<Camera>& camera, int frame, const Vec3d& position,
+                        double sd_depth, double scale_sd) {
+  const double length = Norm(DepthDirection(camera, frame, position));
+  DepthShare share{.sight = position};
+  if (camera) share.sight -= camera->CamFromWorld(frame).Inverse().translation;
+  if (length == 0 || Norm(share.sight) == 0) return share;
+  const double relative = sd_depth * length / Norm(share.sight);
+  share.own = std::sqrt(std::max(0.0, relative * relative - scale_sd * scale_sd));
+  return share;
+}
+
 Trajectories AddDepthNoise(const DepthNoiseOptions& options, const std::optional<Camera>& camera,
                            double fps, const Trajectories& trajectories) {
   Check(options.time > 0 && fps > 0, "depth noise needs a positive time and frame rate");
@@ -57,16 +68,9 @@ Trajectories AddDepthNoise(const DepthNoiseOptions& options, const std::optional
     const auto agent = kStream | static_cast<std::uint64_t>(trajectory.id);
     const SmoothNoise noise(Rng(options.seed, agent, options.draw), options.time);
     for (TrajectoryPoint& point : trajectory.points) {
-      const Vec3d direction = DepthDirection(camera, point.frame, point.position);
-      const double length = Norm(direction);
-      if (length == 0) continue;
-      const Vec3d eye_to_point =
-          camera ? point.position - camera->CamFromWorld(point.frame).Inverse().translation
-                 : point.position;
-      const double depth = Norm(eye_to_point) / length;
-      const double common = options.scale_sd * depth;
-      const double sd = std::sqrt(std::max(0.0, point.sd_depth * point.sd_depth - common * common));
-      point.position += (sd * noise.At((point.frame - 1) / fps)) * direction;
+      const DepthShare share =
+          DepthShareOf(camera, point.frame, point.position, point.sd_depth, options.scale_sd);
+      point.position += (share.own * noise.At((point.frame - 1) / fps)) * share.sight;
     }
   }
   return noisy;

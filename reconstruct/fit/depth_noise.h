@@ -32,6 +32,15 @@ struct DepthNoiseOptions {
 // a position; without a camera the eye is the world's origin and depth the distance from it.
 Vec3d DepthDirection(const std::optional<Camera>& camera, int frame, const Vec3d& position);
 
+// How far the eye is from a position, and one sd of the depth alone, without the common scale's, as
+// a share of that.
+struct DepthShare {
+  Vec3d sight;  // from the eye [m]
+  double own = 0;
+};
+DepthShare DepthShareOf(const std::optional<Camera>& camera, int frame, const Vec3d& position,
+                        double sd_depth, double scale_sd);
+
 Trajectories AddDepthNoise(const DepthNoiseOptions& options, const std::optional<Camera>& camera,
                            double fps, const Trajectories& trajectories);
 

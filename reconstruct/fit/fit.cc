@@ -3,6 +3,8 @@
 
 #include "reconstruct/fit/fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -23,6 +25,9 @@
 namespace flocklift {
 namespace internal {
 namespace {
+
+// Positions times unknown depth errors: what a state-space estimate holds three slopes of.
+constexpr double kMostDepthSlopes = 1e7;
 
 std::vector<std::string> DefaultFree(const FitProblem& problem) {
   std::vector<std::string> names = LinearWeights(problem.model.name);
@@ -154,13 +159,22 @@ void Fitter::EstimateStates(WhitenedFit* fit) {
       .filter = {.substeps = options_.substeps, .bridged_gap = options_.bridged_gap},
       .threads = threads_};
   const FilterInput input(flock_);
-  const StateSpaceFit states = FitStateSpace(options, process, start, input);
+  const std::optional<DepthPaths> paths = DepthPathsOf(input);
+  if (paths && static_cast<double>(paths->size() * input.sightings()) > kMostDepthSlopes) {
+    result_.method = FitMethod::kErrorsInVariables;
+    result_.warnings.push_back(fmt::format(
+        "a state-space estimate of {} positions would have {} unknown depth errors: by regression",
+        input.sightings(), paths->size()));
+    return;
+  }
+  const DepthPaths* const errors = paths ? &*paths : nullptr;
+  const StateSpaceFit states = FitStateSpace(options, process, start, input, errors);
   if (!states.IsUsable()) {
     fit->regression.status = RegressionStatus::kTooFewRows;
     return;
   }
   fit->converged = states.status == StateSpaceStatus::kOk;
-  if (fit->converged) ScoreHeldParameters(options, states, input);
+  if (fit->converged) ScoreHeldParameters(options, states, input, errors);
   fit->rho.reset();  // the noise is white
   fit->regression.estimate = states.estimate;
   fit->regression.sd = states.sd;

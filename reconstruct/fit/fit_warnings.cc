@@ -100,8 +100,10 @@ void AddWarnings(const FitOptions& options, double pull, double median_sd_depth,
   }
   if (median_sd_depth > 0 && result->method == FitMethod::kStateSpace) {
     warn(
-        "a state-space estimate takes position errors for alike in all directions and fresh in "
-        "every frame, which depth errors are not: errors-in-variables weighs them");
+        fmt::format("depth errors (median sd {:.2g} m), taken for as large as stated and lasting "
+                    "{:.3g} s, are estimated with the weights and in their standard deviations",
+                    median_sd_depth, options.depth_error_time));
+    return;
   }
   if (median_sd_depth > 0 && factors.empty()) {
     warn(

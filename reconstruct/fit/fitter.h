@@ -44,12 +44,14 @@ class Fitter {
   void ChooseMethod();
   // From the regression's estimate, which it replaces, and the other parameters as given.
   void EstimateStates(WhitenedFit* fit);
+  // Of the positions, where the file states errors.
+  std::optional<DepthPaths> DepthPathsOf(const FilterInput& input) const;
   // Those of these names that are not free, but could be.
   std::vector<std::string> HeldOf(const std::vector<std::string>& names) const;
   // How well the values of what is held agree with the motion: by the score of the likelihood, or
   // by a regression in which they are free.
   void ScoreHeldParameters(const StateSpaceOptions& options, const StateSpaceFit& states,
-                           const FilterInput& input);
+                           const FilterInput& input, const DepthPaths* paths);
   void TestHeldWeights();
   // Without the parameters that are none.
   std::vector<double> WeightsOf(const std::vector<double>& theta) const;
@@ -68,7 +70,8 @@ class Fitter {
   // May the model's weight be no less than 0?
   bool IsPositive(const std::string& name) const;
   void SummarizeRest(const WhitenedFit& fit);
-  // Simulation extrapolation: what one more error of the stated size does.
+  // Simulation extrapolation: what one more error of the stated size does. A state-space estimate
+  // has the errors among its unknowns and is told only how much of each term they are.
   void AddDepthFactors(const WhitenedFit& fit);
   void WriteParametersOf(const WhitenedFit& fit);
 

@@ -17,6 +17,21 @@ constexpr double kDepthShare = 0.5;
 
 }  // namespace
 
+std::optional<DepthPaths> Fitter::DepthPathsOf(const FilterInput& input) const {
+  if (!trajectories_.has_sd_depth) return std::nullopt;
+  const auto share = [this](int animal, int frame) {
+    return DepthShareOf(problem_.camera, frame, flock_.Position(animal, frame),
+                        flock_.SdDepth(animal, frame), options_.scale_sd);
+  };
+  DepthPaths paths({.sight = [&](int animal, int frame) { return share(animal, frame).sight; },
+                    .own = [&](int animal, int frame) { return share(animal, frame).own; },
+                    .scale_sd = options_.scale_sd,
+                    .time = options_.depth_error_time},
+                   input);
+  if (paths.size() == 0) return std::nullopt;
+  return paths;
+}
+
 void Fitter::AddDepthFactors(const WhitenedFit& fit) {
   const std::size_t p = terms_.free.size();
   std::vector<double> sums(p), squares(p), shares(p);
@@ -28,10 +43,11 @@ void Fitter::AddDepthFactors(const WhitenedFit& fit) {
                                   .draw = static_cast<std::uint32_t>(draw)};
     const Trajectories noisy = AddDepthNoise(noise, problem_.camera, fps_, trajectories_);
     const MotionRows noisy_rows = Rows(ObservedFlock(noisy, fps_, options_.bridged_gap), {});
-    const WhitenedFit again = SolveWhitened(whitening_, noisy_rows);
+    const std::vector<double> changed = ChangedShares(rows_, noisy_rows);
+    const bool shares_only = result_.method == FitMethod::kStateSpace;
+    const WhitenedFit again = shares_only ? fit : SolveWhitened(whitening_, noisy_rows);
     if (!again.IsUsable()) continue;
     ++draws;
-    const std::vector<double> changed = ChangedShares(rows_, noisy_rows);
     for (std::size_t c = 0; c < p; ++c) {
       shares[c] += changed[c];
       const double factor = again.regression.estimate[c] / fit.regression.estimate[c];
@@ -44,6 +60,10 @@ void Fitter::AddDepthFactors(const WhitenedFit& fit) {
     FittedWeight& weight = result_.weights[c];
     const double mean = sums[c] / draws;
     weight.depth_share = shares[c] / draws;
+    if (result_.method == FitMethod::kStateSpace) {
+      weight.determined = weight.determined && *weight.depth_share < kDepthShare;
+      continue;
+    }
     if (!weight.determined || !std::isfinite(mean)) continue;
     weight.depth_factor = mean;
     weight.depth_factor_sd =

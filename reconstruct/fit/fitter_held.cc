@@ -20,15 +20,15 @@ std::vector<std::string> Fitter::HeldOf(const std::vector<std::string>& names) c
 }
 
 void Fitter::ScoreHeldParameters(const StateSpaceOptions& options, const StateSpaceFit& states,
-                                 const FilterInput& input) {
+                                 const FilterInput& input, const DepthPaths* paths) {
   const std::vector<std::string> held = HeldOf(SmoothParameters(model_));
   if (held.empty()) return;
   std::vector<std::string> all = free_;
   all.insert(all.end(), held.begin(), held.end());
   std::vector<double> values;
   for (const std::string& name : held) values.push_back(model_.parameters.at(name));
-  const std::vector<HeldScore> scores =
-      ScoreHeld(options, MakeProcessModel(model_, all, problem_.walls), states, values, input);
+  const std::vector<HeldScore> scores = ScoreHeld(
+      options, MakeProcessModel(model_, all, problem_.walls), states, values, input, paths);
   for (std::size_t k = 0; k < held.size(); ++k) {
     result_.held.push_back({.name = held[k], .value = values[k], .z = scores[k].z});
   }

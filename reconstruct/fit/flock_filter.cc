@@ -306,6 +306,12 @@ FilterInput::FilterInput(const ObservedFlock& flock)
   for (std::size_t lag = 0; lag < 3; ++lag) second_differences_[lag] = sums[lag] / counts[lag];
 }
 
+std::size_t FilterInput::sightings() const {
+  std::size_t count = 0;
+  for (const auto& sightings : frames_) count += sightings.size();
+  return count;
+}
+
 FilterSweep RunFilter(const FilterOptions& options, const ProcessModel& model,
                       const std::vector<double>& theta, const FlockNoise& noise,
                       const FilterInput& input) {

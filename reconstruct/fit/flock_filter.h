@@ -26,6 +26,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "reconstruct/fit/observed_flock.h"
@@ -66,6 +67,13 @@ class FilterInput {
     Vec3d position;
   };
   const std::vector<std::vector<Sighting>>& frames() const { return frames_; }
+  std::size_t sightings() const;
+  // The same animals in the same frames, elsewhere.
+  FilterInput With(std::vector<std::vector<Sighting>> frames) const {
+    FilterInput other = *this;
+    other.frames_ = std::move(frames);
+    return other;
+  }
   int first_frame() const { return first_frame_; }
   int animals() const { return animals_; }
   double dt() const { return dt_; }
