@@ -189,7 +189,7 @@ FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>
   if (goal) weights.push_back(kGoalWeight);
   for (const std::string& name : free) {
     if (std::find(weights.begin(), weights.end(), name) != weights.end()) continue;
-    throw InputError(model.where, 0, "`" + name + "` of model " + model.name + " cannot be freed",
+    throw InputError("--free", 0, "`" + name + "` of model " + model.name + " cannot be freed",
                      SuggestName(name, weights));
   }
   FlockTerms terms;

@@ -40,7 +40,7 @@ void CheckKernels(const KernelFitOptions& options) {
         "a kernel's spline has 4 intervals at least, or 0 to have them chosen");
   for (const std::string& name : options.kernels) {
     Check(name == kAttraction || name == kAlignment,
-          "there is no kernel " + name + ": attraction or alignment");
+          "--free: there is no kernel " + name + ": attraction or alignment");
     Check(name != kAlignment || options.order == 2,
           "an alignment needs a motion of order 2: with order 1 nobody has a velocity to align");
   }

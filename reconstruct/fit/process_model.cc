@@ -86,7 +86,7 @@ ProcessModel MakeProcessModel(const ModelSpec& model, const std::vector<std::str
   process.free = free;
   for (const std::string& name : free) {
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-      throw InputError(model.where, 0, "`" + name + "` of model " + model.name + " cannot be freed",
+      throw InputError("--free", 0, "`" + name + "` of model " + model.name + " cannot be freed",
                        SuggestName(name, names));
     }
     process.start.push_back(complete.parameters.at(name));

@@ -111,7 +111,7 @@ std::vector<double> StartValues(const ModelSpec& model, const std::vector<std::s
   for (const std::string& name : free) {
     const auto found = model.parameters.find(name);
     if (found == model.parameters.end()) {
-      throw InputError(model.where, 0,
+      throw InputError("--free", 0,
                        "model " + model.name + " has no number `" + name + "` to be fitted",
                        SuggestName(name, known));
     }

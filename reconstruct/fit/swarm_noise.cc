@@ -38,7 +38,7 @@ void CheckProblem(const FitProblem& problem, const ModelSpec& model,
   const std::vector<std::string> known = {"scale", "gain"};
   for (const std::string& name : free) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw InputError(model.where, 0, "`" + name + "` of model swarm cannot be freed",
+      throw InputError("--free", 0, "`" + name + "` of model swarm cannot be freed",
                        SuggestName(name, known));
     }
   }

@@ -141,6 +141,15 @@ TEST_F(FitReplayCommandTest, FitRefusesWithNothingWritten) {
   refused("--start /nowhere.toml");
   std::ofstream(folder_ / "trajectories.csv") << "# fps=30\nframe,id,x,y,z\n1,1,0,0,0\n2,1,0,0,1\n";
   EXPECT_THROW(Run(Fit(""), "none"), CannotFit);
+  EXPECT_THROW(Run(Fit("--compare starlings"), "none"), InputError);  // before what is too short
+  for (const char* model : {"boids", "linear", "swarm", "bswarm"}) {
+    try {
+      Run(Fit(std::string("--free alpha_x --model ") + model), "none");
+      ADD_FAILURE() << model;
+    } catch (const InputError& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("--free: ")) << error.what();
+    }
+  }
   std::ofstream(folder_ / "trajectories.csv") << "frame,id,x,y,z\n1,1,0,0,0\n2,1,0,0,1\n";
   EXPECT_THROW(Run(Fit(""), "none"), InputError);  // no frames per second
 }

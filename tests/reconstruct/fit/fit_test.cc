@@ -375,6 +375,44 @@ TEST(Fit, DepthErrorsAreToldInFigures) {
   EXPECT_GT(*separation.depth_factor, 0.0);
 }
 
+TEST(Fit, AStateSpaceEstimateTakesStatedDepthErrorsAlong) {
+  Scene scene = BoidsScene(7);
+  scene.duration = 2;
+  scene.species[0].count = 6;
+  for (const auto& [name, value] : std::map<std::string, double>{
+           {"taper", 1}, {"cruise", 0}, {"level", 0}, {"noise_time", 0}, {"s_min", 3}}) {
+    scene.species[0].model.parameters[name] = value;
+  }
+  const Trajectories truth = Fly(scene);
+  Trajectories seen = truth;
+  seen.has_sd_depth = true;
+  for (Trajectory& trajectory : seen.trajectories) {
+    const double phase = static_cast<double>(trajectory.id);
+    for (TrajectoryPoint& point : trajectory.points) {
+      point.position += Vec3d{0, 60 + 0.3 * std::sin(0.03 * point.frame + 2.4 * phase), 0};
+      point.sd_depth = 0.2;
+    }
+  }
+  FitProblem problem;
+  problem.model = scene.species[0].model;
+  problem.free = {"alpha_c", "alpha_a"};
+  EXPECT_EQ(Fit(problem, seen).method, FitMethod::kErrorsInVariables);
+  problem.method = FitMethod::kStateSpace;
+  const FitResult result = Fit(problem, seen);
+  ASSERT_TRUE(result.IsUsable());
+  EXPECT_EQ(result.method, FitMethod::kStateSpace);
+  EXPECT_TRUE(result.converged);
+  EXPECT_TRUE(Warns(result, "are estimated with the weights"));
+  const FitResult without = Fit(problem, truth);
+  for (std::size_t k = 0; k < result.weights.size(); ++k) {
+    const FittedWeight& weight = result.weights[k];
+    EXPECT_FALSE(weight.depth_factor.has_value());
+    EXPECT_TRUE(weight.depth_share.has_value());
+    EXPECT_GT(weight.sd, without.weights[k].sd);
+    EXPECT_NEAR(weight.estimate, without.weights[k].estimate, 3 * weight.sd) << weight.name;
+  }
+}
+
 TEST(Fit, AForeignMotionIsSaidToBeUnexplained) {
   // Random walks of the velocity that know nothing of each other.
   Trajectories flock;
