@@ -16,14 +16,40 @@ namespace {
 constexpr double kSpacing = 0.7;  // of knots, in correlation times
 constexpr double kJitter = 1e-8;  // added to K
 
-// Of one animal from its first frame to its last.
+// An animal from its first frame to its last.
+struct Life {
+  int first = 0, last = -1;
+  bool errs = false;
+
+  double Length(double dt) const { return std::max(0, last - first) * dt; }
+  std::size_t Knots(double dt, double time) const {
+    if (!errs) return 0;
+    return 1 + static_cast<std::size_t>(std::ceil(Length(dt) / (kSpacing * time)));
+  }
+};
+
+std::vector<Life> LivesOf(const DepthErrors& errors, const FilterInput& input) {
+  Check(errors.time > 0 && errors.scale_sd >= 0, "depth errors last for a positive time");
+  std::vector<Life> lives(static_cast<std::size_t>(input.animals()));
+  int frame = input.first_frame();
+  for (const auto& sightings : input.frames()) {
+    for (const FilterInput::Sighting& sighting : sightings) {
+      Life& life = lives[static_cast<std::size_t>(sighting.animal)];
+      if (life.last < life.first) life.first = frame;
+      life.last = frame;
+      life.errs = life.errs || errors.own(sighting.animal, frame) > 0;
+    }
+    ++frame;
+  }
+  return lives;
+}
+
 class Knots {
  public:
-  Knots(int first, int last, double dt, double time) : first_(first), dt_(dt), time_(time) {
-    const double length = (last - first) * dt;
-    const auto count = 1 + static_cast<Eigen::Index>(std::ceil(length / (kSpacing * time)));
-    at_ = count > 1 ? Eigen::VectorXd(Eigen::VectorXd::LinSpaced(count, 0, length))
-                    : Eigen::VectorXd::Zero(1);
+  Knots(const Life& life, double dt, double time) : first_(life.first), dt_(dt), time_(time) {
+    const auto count = static_cast<Eigen::Index>(life.Knots(dt, time));
+    at_ = Eigen::VectorXd::Zero(count);
+    if (count > 1) at_ = Eigen::VectorXd::LinSpaced(count, 0, life.Length(dt));
     Eigen::MatrixXd k(count, count);
     for (Eigen::Index a = 0; a < count; ++a) k.col(a) = Correlation(at_[a]);
     k.diagonal().array() += kJitter;
@@ -32,6 +58,7 @@ class Knots {
 
   std::size_t count() const { return static_cast<std::size_t>(at_.size()); }
   std::vector<double> Share(int frame) const {
+    if (at_.size() == 0) return {};
     const Eigen::VectorXd share =
         root_.triangularView<Eigen::Lower>().solve(Correlation((frame - first_) * dt_));
     return {share.begin(), share.end()};
@@ -50,42 +77,30 @@ class Knots {
 
 }  // namespace
 
+std::size_t UnknownDepthErrors(const DepthErrors& errors, const FilterInput& input) {
+  std::size_t count = errors.scale_sd > 0 ? 1 : 0;
+  for (const Life& life : LivesOf(errors, input)) count += life.Knots(input.dt(), errors.time);
+  return count;
+}
+
 DepthPaths::DepthPaths(const DepthErrors& errors, const FilterInput& input)
     : size_(errors.scale_sd > 0 ? 1 : 0), scale_sd_(errors.scale_sd) {
-  Check(errors.time > 0 && errors.scale_sd >= 0, "depth errors last for a positive time");
-  struct Life {
-    int first = 0, last = -1;
-    bool errs = false;
-  };
-  std::vector<Life> lives(static_cast<std::size_t>(input.animals()));
-  int frame = input.first_frame();
-  for (const auto& sightings : input.frames()) {
-    for (const FilterInput::Sighting& sighting : sightings) {
-      Life& life = lives[static_cast<std::size_t>(sighting.animal)];
-      if (life.last < life.first) life.first = frame;
-      life.last = frame;
-      life.errs = life.errs || errors.own(sighting.animal, frame) > 0;
-    }
-    ++frame;
-  }
-  std::vector<std::size_t> first(lives.size());
+  std::vector<std::size_t> first;
   std::vector<Knots> knots;
-  for (std::size_t i = 0; i < lives.size(); ++i) {
-    knots.emplace_back(lives[i].first, std::max(lives[i].first, lives[i].last), input.dt(),
-                       errors.time);
-    first[i] = size_;
-    if (lives[i].errs) size_ += knots.back().count();
+  for (const Life& life : LivesOf(errors, input)) {
+    knots.emplace_back(life, input.dt(), errors.time);
+    first.push_back(size_);
+    size_ += knots.back().count();
   }
-  frame = input.first_frame();
+  int frame = input.first_frame();
   for (const auto& sightings : input.frames()) {
     std::vector<Part>& parts = frames_.emplace_back();
     for (const FilterInput::Sighting& sighting : sightings) {
       const auto animal = static_cast<std::size_t>(sighting.animal);
-      Part& part = parts.emplace_back();
-      part.first = first[animal];
-      if (lives[animal].errs) part.share = knots[animal].Share(frame);
-      part.sight = errors.sight(sighting.animal, frame);
-      part.own = errors.own(sighting.animal, frame);
+      parts.push_back({.first = first[animal],
+                       .share = knots[animal].Share(frame),
+                       .sight = errors.sight(sighting.animal, frame),
+                       .own = errors.own(sighting.animal, frame)});
     }
     ++frame;
   }

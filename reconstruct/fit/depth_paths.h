@@ -36,6 +36,9 @@ struct DepthErrors {
   double time = 2;      // correlation time of `own` [s]
 };
 
+// How many unknowns they would be.
+std::size_t UnknownDepthErrors(const DepthErrors& errors, const FilterInput& input);
+
 class DepthPaths {
  public:
   // Of the positions in `input`; animals whose errors are stated to be 0 have none.

@@ -27,7 +27,7 @@ namespace internal {
 namespace {
 
 // Positions times unknown depth errors: what a state-space estimate holds three slopes of.
-constexpr double kMostDepthSlopes = 1e7;
+constexpr double kMostDepthSlopes = 3e6;
 
 std::vector<std::string> DefaultFree(const FitProblem& problem) {
   std::vector<std::string> names = LinearWeights(problem.model.name);
@@ -159,22 +159,25 @@ void Fitter::EstimateStates(WhitenedFit* fit) {
       .filter = {.substeps = options_.substeps, .bridged_gap = options_.bridged_gap},
       .threads = threads_};
   const FilterInput input(flock_);
-  const std::optional<DepthPaths> paths = DepthPathsOf(input);
-  if (paths && static_cast<double>(paths->size() * input.sightings()) > kMostDepthSlopes) {
+  const std::optional<DepthErrors> errors = StatedDepthErrors();
+  const std::size_t unknown = errors ? UnknownDepthErrors(*errors, input) : 0;
+  if (static_cast<double>(unknown * input.sightings()) > kMostDepthSlopes) {
     result_.method = FitMethod::kErrorsInVariables;
     result_.warnings.push_back(fmt::format(
         "a state-space estimate of {} positions would have {} unknown depth errors: by regression",
-        input.sightings(), paths->size()));
+        input.sightings(), unknown));
     return;
   }
-  const DepthPaths* const errors = paths ? &*paths : nullptr;
-  const StateSpaceFit states = FitStateSpace(options, process, start, input, errors);
+  std::optional<DepthPaths> known_paths;
+  if (unknown > 0) known_paths.emplace(*errors, input);
+  const DepthPaths* const paths = known_paths ? &*known_paths : nullptr;
+  const StateSpaceFit states = FitStateSpace(options, process, start, input, paths);
   if (!states.IsUsable()) {
     fit->regression.status = RegressionStatus::kTooFewRows;
     return;
   }
   fit->converged = states.status == StateSpaceStatus::kOk;
-  if (fit->converged) ScoreHeldParameters(options, states, input, errors);
+  if (fit->converged) ScoreHeldParameters(options, states, input, paths);
   fit->rho.reset();  // the noise is white
   fit->regression.estimate = states.estimate;
   fit->regression.sd = states.sd;

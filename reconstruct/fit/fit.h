@@ -7,7 +7,7 @@
 //   state-space          states, parameters, process and position noise together, of greatest
 //                        marginal likelihood (state_space.h); for smooth models, the default there
 //                        unless the input states depth errors. Named there, it makes unknowns of
-//                        them; where these times the positions are more than 1e7, by regression
+//                        them; where these times the positions are more than 3e6, by regression
 //   errors-in-variables  accelerations as second differences with the terms averaged under the same
 //                        window (motion_rows.h). Taking both from the same frames biases least
 //                        squares towards 0 without end, so the moments use instruments from earlier

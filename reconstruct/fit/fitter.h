@@ -44,8 +44,8 @@ class Fitter {
   void ChooseMethod();
   // From the regression's estimate, which it replaces, and the other parameters as given.
   void EstimateStates(WhitenedFit* fit);
-  // Of the positions, where the file states errors.
-  std::optional<DepthPaths> DepthPathsOf(const FilterInput& input) const;
+  // As the file states them; none where it does not.
+  std::optional<DepthErrors> StatedDepthErrors() const;
   // Those of these names that are not free, but could be.
   std::vector<std::string> HeldOf(const std::vector<std::string>& names) const;
   // How well the values of what is held agree with the motion: by the score of the likelihood, or

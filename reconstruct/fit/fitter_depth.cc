@@ -17,19 +17,16 @@ constexpr double kDepthShare = 0.5;
 
 }  // namespace
 
-std::optional<DepthPaths> Fitter::DepthPathsOf(const FilterInput& input) const {
+std::optional<DepthErrors> Fitter::StatedDepthErrors() const {
   if (!trajectories_.has_sd_depth) return std::nullopt;
   const auto share = [this](int animal, int frame) {
     return DepthShareOf(problem_.camera, frame, flock_.Position(animal, frame),
                         flock_.SdDepth(animal, frame), options_.scale_sd);
   };
-  DepthPaths paths({.sight = [&](int animal, int frame) { return share(animal, frame).sight; },
-                    .own = [&](int animal, int frame) { return share(animal, frame).own; },
-                    .scale_sd = options_.scale_sd,
-                    .time = options_.depth_error_time},
-                   input);
-  if (paths.size() == 0) return std::nullopt;
-  return paths;
+  return DepthErrors{.sight = [=](int animal, int frame) { return share(animal, frame).sight; },
+                     .own = [=](int animal, int frame) { return share(animal, frame).own; },
+                     .scale_sd = options_.scale_sd,
+                     .time = options_.depth_error_time};
 }
 
 void Fitter::AddDepthFactors(const WhitenedFit& fit) {

@@ -34,12 +34,15 @@ Trajectories Distant(const LinearFlock& flock) {
 
 ObservedFlock Observed(const Trajectories& seen) { return {seen, seen.fps.value(), 5}; }
 
+DepthErrors ErrorsOf(const ObservedFlock& flock, double scale_sd = 0) {
+  return {.sight = [&](int a, int f) { return flock.Position(a, f); },
+          .own = [&](int a, int f) { return kSd / Norm(flock.Position(a, f)); },
+          .scale_sd = scale_sd,
+          .time = kTime};
+}
+
 DepthPaths PathsOf(const ObservedFlock& flock, const FilterInput& input, double scale_sd = 0) {
-  return DepthPaths({.sight = [&](int a, int f) { return flock.Position(a, f); },
-                     .own = [&](int a, int f) { return kSd / Norm(flock.Position(a, f)); },
-                     .scale_sd = scale_sd,
-                     .time = kTime},
-                    input);
+  return {ErrorsOf(flock, scale_sd), input};
 }
 
 TEST(DepthPaths, TheirCovarianceIsThatOfTheProcess) {
@@ -47,6 +50,9 @@ TEST(DepthPaths, TheirCovarianceIsThatOfTheProcess) {
   const ObservedFlock flock = Observed(seen);
   const FilterInput input(flock);
   const DepthPaths paths = PathsOf(flock, input);
+  EXPECT_EQ(paths.size(), 2 * 6U);  // every 1.3 s of 6.5 s
+  EXPECT_EQ(UnknownDepthErrors(ErrorsOf(flock), input), paths.size());
+  EXPECT_EQ(UnknownDepthErrors(ErrorsOf(flock, 0.1), input), paths.size() + 1);
   const std::size_t frames = input.frames().size(), later = 300;
   double own = 0, apart = 0;  // covariances of animal 0 in frame 0 and `later` frames on
   double between = 0;

@@ -411,6 +411,14 @@ TEST(Fit, AStateSpaceEstimateTakesStatedDepthErrorsAlong) {
     EXPECT_GT(weight.sd, without.weights[k].sd);
     EXPECT_NEAR(weight.estimate, without.weights[k].estimate, 3 * weight.sd) << weight.name;
   }
+  FitOptions brief;  // errors of a thousandth of a second would be as many as the positions
+  brief.depth_error_time = 1e-3;
+  for (Trajectory& trajectory : seen.trajectories) {
+    for (TrajectoryPoint& point : trajectory.points) point.sd_depth = 0.01;
+  }
+  const FitResult fallen = Fit(problem, seen, brief);
+  EXPECT_EQ(fallen.method, FitMethod::kErrorsInVariables);
+  EXPECT_TRUE(Warns(fallen, "unknown depth errors: by regression"));
 }
 
 TEST(Fit, AForeignMotionIsSaidToBeUnexplained) {
