@@ -26,10 +26,9 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
-#include "reconstruct/fit/observed_flock.h"
+#include "reconstruct/fit/filter_input.h"
 #include "reconstruct/fit/process_model.h"
 
 namespace flocklift {
@@ -55,37 +54,6 @@ struct Innovation {
 struct FilterSweep {
   std::vector<Innovation> innovations;  // by frame, then animal
   double cost = 0;                      // -2 log p, without its constant
-};
-
-// The positions that a sweep reads, by frame, copied out once for many sweeps.
-class FilterInput {
- public:
-  explicit FilterInput(const ObservedFlock& flock);
-
-  struct Sighting {
-    int animal = 0;
-    Vec3d position;
-  };
-  const std::vector<std::vector<Sighting>>& frames() const { return frames_; }
-  std::size_t sightings() const;
-  // The same animals in the same frames, elsewhere.
-  FilterInput With(std::vector<std::vector<Sighting>> frames) const {
-    FilterInput other = *this;
-    other.frames_ = std::move(frames);
-    return other;
-  }
-  int first_frame() const { return first_frame_; }
-  int animals() const { return animals_; }
-  double dt() const { return dt_; }
-  // Moments of second differences: what a start of q and s is made of. Variance and covariances
-  // over one and two frames, per axis [m^2]; NaN without any.
-  const std::array<double, 3>& second_differences() const { return second_differences_; }
-
- private:
-  std::vector<std::vector<Sighting>> frames_;
-  int first_frame_ = 0, animals_ = 0;
-  double dt_ = 0;
-  std::array<double, 3> second_differences_{};
 };
 
 FilterSweep RunFilter(const FilterOptions& options, const ProcessModel& model,
