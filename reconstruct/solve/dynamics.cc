@@ -19,7 +19,8 @@ namespace {
 
 using namespace internal;  // NOLINT: the method's own parts
 
-constexpr int kIterations = 6;           // of one round, at most
+constexpr int kIterations = 6;    // of one round, at most
+constexpr double kUnsure = 1.35;  // errors over what the linearised posterior says, as measured
 constexpr std::size_t kMostAtOnce = 40;  // animals in one system: its cost per animal grows as N^2
 
 struct Flock {
@@ -107,15 +108,35 @@ void Polish(const BatchModel& model, const std::vector<int>& group, bool first, 
   if (posterior == nullptr) return;
   const CoupledFlock::DepthSds sds = coupled.Depths();
   if (sds.at.empty()) return;
-  if (!*posterior) {
-    *posterior = DepthPosterior{std::vector<std::vector<double>>(flock->birds.size()), {}};
-  }
+  if (!*posterior) *posterior = DepthPosterior(flock->birds.size());
+  // Animals that stand still meanwhile hold the scale.
+  const double common = group.size() == flock->birds.size() ? sds.mean * sds.mean : 0;
   for (const int i : group) {
-    const auto at = static_cast<std::size_t>(i);
-    (*posterior)->sd_log_depth[at] = sds.at[at];
+    for (const double sd : sds.at[static_cast<std::size_t>(i)]) {
+      (**posterior)[static_cast<std::size_t>(i)].push_back(
+          std::sqrt(std::max(sd * sd - common, 0.0)));
+    }
   }
-  // Animals that stand still meanwhile would hold the scale.
-  if (group.size() == flock->birds.size()) (*posterior)->scale_sd = sds.mean;
+}
+
+// Where the common scale drifts while forces are found, it is not because forces know it: it stays
+// that of the batch solution.
+void KeepScale(const std::vector<Bird>& before, const BatchModel& model, Flock* flock) {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    for (std::size_t k = 2; k < before[i].path.size(); k += 3) {
+      sum += flock->birds[i].path[k] - before[i].path[k];
+      ++count;
+    }
+  }
+  const double grown = sum / count;
+  for (Bird& bird : flock->birds) {
+    for (std::size_t k = 2; k < bird.path.size(); k += 3) bird.path[k] -= grown;
+    bird.own[kOwnLogSpeed] -= grown;
+  }
+  flock->shared[kFlockLogSpeed] -= grown;
+  flock->shared[kSizeRatio] -= grown;
+  for (int k = model.depth.first; k < model.depth.end(); ++k) flock->shared[k] -= grown;
 }
 
 // How far the depths of two solutions are apart after one common scale: of every animal in the
@@ -215,11 +236,10 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     for (std::size_t g = 0; g < groups.size(); ++g) {
       Polish(window.model, groups[g], g == 0, &flock, window.posterior);
     }
+    KeepScale(*window.birds, window.model, &flock);
     // Where two starts end apart neither is sure.
     for (std::size_t i = 0; i < followed.apart.size() && *window.posterior; ++i) {
-      for (double& sd : (*window.posterior)->sd_log_depth[i]) {
-        sd = std::hypot(sd, followed.apart[i]);
-      }
+      for (double& sd : (**window.posterior)[i]) sd = kUnsure * std::hypot(sd, followed.apart[i]);
     }
     *window.birds = flock.birds;
     *window.shared = flock.shared;

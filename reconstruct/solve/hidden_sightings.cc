@@ -86,7 +86,8 @@ bool PredictsBetter(const std::vector<double>& errors, const std::vector<double>
   }
   const double n = static_cast<double>(errors.size());
   const double mean = sum / n;
-  return mean > std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1));
+  constexpr double kEnough = 0.5;  // a dozen pieces is what a scene has
+  return mean > kEnough * std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1));
 }
 
 }  // namespace flocklift::internal

@@ -39,7 +39,7 @@ class HiddenSightings {
 
 double MeanOf(const std::vector<double>& values);
 
-// Is `errors` less than `others`, piece by piece, by more than one standard error of the mean?
+// Is `errors` less than `others`, piece by piece, by more than half a standard error of the mean?
 bool PredictsBetter(const std::vector<double>& errors, const std::vector<double>& others);
 
 }  // namespace flocklift::internal

@@ -274,12 +274,10 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   report.final_cost = solver.Cost();
   const Eigen::MatrixXd covariance = ReadOut(&state, &solver, &solved.result);
   if (posterior) {
-    const double common = posterior->scale_sd ? 0 : report.scale_sd;
-    report.scale_sd = posterior->scale_sd.value_or(report.scale_sd);
     for (std::size_t i = 0; i < state.birds.size(); ++i) {
-      const std::vector<double>& sds = posterior->sd_log_depth[i];
+      const std::vector<double>& sds = (*posterior)[i];
       for (std::size_t k = 0; k < sds.size(); ++k) {
-        solved.result.paths[i][k].sd_log_depth = std::hypot(sds[k], common);
+        solved.result.paths[i][k].sd_log_depth = std::hypot(sds[k], report.scale_sd);
       }
     }
   }

@@ -28,12 +28,9 @@ struct SolvedWindow {
   Belief belief;  // in the flock's first four unknowns, that of other windows included
 };
 
-// How well depths are known: sd of the log depth at every sighting, by segment (empty: as the batch
-// method has it), and of their mean; without that, given it.
-struct DepthPosterior {
-  std::vector<std::vector<double>> sd_log_depth;
-  std::optional<double> scale_sd;
-};
+// How well depths are known but for the common scale: sd of the log depth at every sighting, by
+// segment (empty: as the batch method has it, scale included).
+using DepthPosterior = std::vector<std::vector<double>>;
 
 // A window when the batch method is done with it, for a method that goes on from there and leaves
 // its own paths, and their posterior where that is not the batch method's.
