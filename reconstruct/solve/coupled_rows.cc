@@ -118,8 +118,14 @@ void CoupledFlock::Linearize() {
     ForEachRow(model_, birds_[i], shared_, true, [&](Term term, const ResidualRow& row) {
       if (term != Term::kAcceleration) AddBatchRow(i, row, RobustWeight(term, row.residual));
     });
-    for (int k = 0; k < birds_[i].knots; ++k) {
-      LinearizeLine(i, k, states);
+    for (int k = 0; k < birds_[i].knots; ++k) LinearizeLine(i, k, states);
+  }
+  // By time, so that the blocks that are added to stay in the processor's caches.
+  for (std::size_t time = 0; time < present_.size(); ++time) {
+    for (const int animal : present_[time]) {
+      if (!Moves(animal)) continue;
+      const auto i = static_cast<std::size_t>(animal);
+      const int k = static_cast<int>(time) - birds_[i].first_knot;
       Line& line = lines_[first_line_[i] + Index(k)];
       const double whitening = Whitening(k);
       const Vec3d row = whitening * (k == 0 ? line.error : line.error - rho * (&line - 1)->error);
@@ -193,6 +199,27 @@ CoupledFlock::Rows CoupledFlock::RowsOf(std::size_t bird, int knot, double facto
   return rows;
 }
 
+namespace {
+
+// Columns of animals that follow one another: `size` of them from `at` on, in the rows from `from`
+// on.
+struct Run {
+  int from, at, size;
+};
+
+std::vector<Run> RunsOf(const std::vector<int>& columns) {
+  std::vector<Run> runs;
+  for (std::size_t n = 0; n < columns.size(); ++n) {
+    if (runs.empty() || columns[n] != runs.back().at + runs.back().size) {
+      runs.push_back({3 * static_cast<int>(n), columns[n], 0});
+    }
+    runs.back().size += 3;
+  }
+  return runs;
+}
+
+}  // namespace
+
 void CoupledFlock::AddRows(const Rows& rows, const Vec3d& residual, const Vec3d& weight) {
   const Eigen::Vector3d w(weight.x, weight.y, weight.z);
   const Eigen::Vector3d r(weight.x * residual.x, weight.y * residual.y, weight.z * residual.z);
@@ -200,23 +227,28 @@ void CoupledFlock::AddRows(const Rows& rows, const Vec3d& residual, const Vec3d&
   const auto of_forces = rows.by_border.rightCols(count);
   for (int c = 0; c < TimeSystem::kSpan; ++c) {
     const int time = rows.first_time + c;
-    for (std::size_t n = 0; n < rows.columns[Index(c)].size(); ++n) {
-      const int at = rows.columns[Index(c)][n];
-      const auto by = rows.by[Index(c)].middleCols<3>(3 * static_cast<Eigen::Index>(n));
-      const Eigen::Matrix3d weighted = by.transpose() * w.asDiagonal();
+    const auto& by = rows.by[Index(c)];
+    if (by.cols() == 0) continue;
+    const Eigen::Matrix<double, Eigen::Dynamic, 3> weighted = by.transpose() * w.asDiagonal();
+    const Eigen::VectorXd pulled = by.transpose() * r;
+    // What stands side by side in the block is added at once.
+    for (const Run& run : RunsOf(rows.columns[Index(c)])) {
+      const auto mine = weighted.middleRows(run.from, run.size);
       for (int d = 0; d <= c; ++d) {
         const std::vector<int>& others = rows.columns[Index(c - d)];
         Eigen::MatrixXd& block = system_.Block(time, d);
-        for (std::size_t m = 0; m < others.size() && (d > 0 || others[m] <= at); ++m) {
+        for (std::size_t m = 0; m < others.size(); ++m) {
+          if (d == 0 && others[m] >= run.at + run.size) break;  // above the diagonal
           const Eigen::Matrix3d other =
               rows.by[Index(c - d)].middleCols<3>(3 * static_cast<Eigen::Index>(m));
-          block.block<3, 3>(at, others[m]) += weighted * other;
+          block.middleCols<3>(others[m]).middleRows(run.at, run.size) += mine.lazyProduct(other);
         }
       }
-      system_.Gradient(time).segment<3>(at) += by.transpose() * r;
+      system_.Gradient(time).segment(run.at, run.size) += pulled.segment(run.from, run.size);
       Eigen::MatrixXd& border = system_.ToBorder(time);
-      border.block<3, 1>(at, rows.border[0]) += weighted * rows.by_border.col(0);
-      border.middleRows<3>(at).middleCols(first, count) += weighted.lazyProduct(of_forces);
+      border.col(rows.border[0]).segment(run.at, run.size) +=
+          mine.lazyProduct(rows.by_border.col(0));
+      border.middleRows(run.at, run.size).middleCols(first, count) += mine.lazyProduct(of_forces);
     }
   }
   const Eigen::MatrixXd product = rows.by_border.transpose() * w.asDiagonal() * rows.by_border;
