@@ -5,11 +5,15 @@
 
 import type { Store } from './state';
 
+const PATIENCE = 80; // ms that a drawing waits for what it needs
+
 export class Clock {
   private last = 0;
   private exact = 0; // the frame with its fraction
   private dirty = true;
   private drawers: (() => void)[] = [];
+  private needs: (() => boolean)[] = [];
+  private waits = 0; // since when [ms]; 0: it does not
 
   constructor(
     private store: Store,
@@ -34,6 +38,11 @@ export class Clock {
   onDraw(draw: () => void): void {
     this.drawers.push(draw);
   }
+  // What a drawing needs: asks for it, and says whether it is here. Until all is, nothing is drawn for
+  // a moment: one whole picture takes less time than several in part.
+  onNeed(need: () => boolean): void {
+    this.needs.push(need);
+  }
   redraw(): void {
     this.dirty = true;
   }
@@ -47,6 +56,12 @@ export class Clock {
     this.go(this.store.get().frame + frames);
   }
 
+  private mustWait(now: number): boolean {
+    if (this.needs.map((need) => need()).every(Boolean)) return false;
+    this.waits ||= now;
+    return now - this.waits < PATIENCE;
+  }
+
   private tick(now: number): void {
     const state = this.store.get();
     if (state.playing) {
@@ -58,8 +73,9 @@ export class Clock {
       if (this.store.get().playing) this.store.set({ frame: Math.floor(this.exact) });
     }
     this.last = now;
-    if (this.dirty) {
+    if (this.dirty && !this.mustWait(now)) {
       this.dirty = false;
+      this.waits = 0;
       for (const draw of this.drawers) draw();
     }
     requestAnimationFrame((next) => this.tick(next));

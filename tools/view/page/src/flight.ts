@@ -55,6 +55,7 @@ export class FlightView {
       if (state.dark !== before.dark || state.grid !== before.grid) paint();
       if (state.view !== before.view) this.space.look(state.view, state.frame);
     });
+    clock.onNeed(() => run.flock().ahead(store.get().frame) !== undefined);
     clock.onDraw(() => this.draw());
     let start: [number, number] = [0, 0];
     canvas.addEventListener('pointerdown', (e) => (start = [e.clientX, e.clientY]));

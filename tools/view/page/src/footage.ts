@@ -37,6 +37,9 @@ export class FootageView {
     private run: Run,
   ) {
     new ResizeObserver(() => run.clock.redraw()).observe(canvas);
+    const { session, boxes, store } = run;
+    // A picture that comes late is drawn with its own tracks, so nothing has to wait for it.
+    run.clock.onNeed(() => !session.has.boxes || boxes.ahead(store.get().frame) !== undefined);
     run.clock.onDraw(() => this.draw());
     run.store.watch((state, before) => {
       if (state.selected !== before.selected) this.reveal = this.zoom > 1;
