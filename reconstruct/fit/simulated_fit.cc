@@ -23,6 +23,10 @@ constexpr double kSmallSpread = 1e-3;       // of a statistic's size: the least 
 constexpr double kUnfelt = 1e-9;            // of the largest eigenvalue of G' W G
 constexpr double kSmallPart = 0.05;         // of a unit vector
 constexpr double kNearEnd = 0.05;           // of log theta
+constexpr double kInterval = 1.96;          // sd, of a 95 % interval
+constexpr double kExcluded = 3;             // sd: farther away nothing may be as good
+constexpr double kLeastChallenge = 0.01;    // of log theta
+constexpr double kFirstStep = 0.15;         // of log theta, BOBYQA's
 constexpr std::uint64_t kFirstSeed = 1000;  // of those at which the spread is taken
 
 Quantiles AsArray(const MotionStatistics& statistics) {
@@ -54,10 +58,16 @@ class Search {
   bool TakeSpread(const std::vector<double>& x, Eigen::MatrixXd* spread);
   double CostOf(const Quantiles& mean) const { return ((mean - data_) / sd_).square().sum(); }
   double Cost(const std::vector<double>& x);
-  // How far from x, in each, parameters were tried that are as good as the truth may be.
-  std::vector<double> Reach(const std::vector<double>& x, const Eigen::MatrixXd& spread) const;
   void Optimize(nlopt::algorithm algorithm, int evaluations, std::vector<double>* x);
   void Summarize(const std::vector<double>& x, const Eigen::MatrixXd& spread, SimulatedFit* fit);
+  // The largest J of parameters that may be the truth.
+  double Acceptable(const Eigen::MatrixXd& spread) const;
+  // Raises the sd to what was tried and is acceptable.
+  void Cover(const std::vector<double>& x, double acceptable, std::vector<double>* log_sd) const;
+  // Is anything acceptable where parameter k is off x by `offset` or more?
+  bool Challenge(const std::vector<double>& x, std::size_t k, double offset, double acceptable);
+  void Widen(const std::vector<double>& x, const Eigen::MatrixXd& spread,
+             std::vector<double>* log_sd);
 
   const SimulatedFitOptions& options_;
   const SimulatedStatistics& simulate_;
@@ -72,7 +82,7 @@ class Search {
   std::vector<Trial> tried_;
   std::vector<double> best_;  // of them
   double best_cost_ = std::numeric_limits<double>::infinity();
-  int evaluations_ = 0;
+  int evaluations_ = 0, expected_ = 0;
 };
 
 std::optional<Eigen::MatrixXd> Search::Simulate(const std::vector<double>& x, std::uint64_t first,
@@ -103,7 +113,8 @@ bool Search::TakeSpread(const std::vector<double>& x, Eigen::MatrixXd* spread) {
 }
 
 double Search::Cost(const std::vector<double>& x) {
-  Report(progress_, ++evaluations_, options_.global_evaluations + options_.local_evaluations);
+  ++evaluations_;
+  Report(progress_, evaluations_, std::max(evaluations_, expected_));
   const auto all = Simulate(x, 0, options_.simulations);
   if (!all) return kImpossible;
   tried_.push_back({x, all->rowwise().mean().array()});
@@ -125,7 +136,7 @@ void Search::Optimize(nlopt::algorithm algorithm, int evaluations, std::vector<d
   solver.set_upper_bounds(std::log(options_.range));
   solver.set_maxeval(evaluations);
   solver.set_xtol_abs(1e-3);
-  if (algorithm == nlopt::LN_BOBYQA) solver.set_initial_step(0.15);
+  if (algorithm == nlopt::LN_BOBYQA) solver.set_initial_step(kFirstStep);
   double cost = 0;
   try {
     solver.optimize(*x, cost);
@@ -133,27 +144,6 @@ void Search::Optimize(nlopt::algorithm algorithm, int evaluations, std::vector<d
     // The best that was tried counts.
   }
   *x = best_;
-}
-
-// As good: J no greater than it is for data that are any one of the spread's seeds.
-std::vector<double> Search::Reach(const std::vector<double>& x,
-                                  const Eigen::MatrixXd& spread) const {
-  const double factor = (1 + 1.0 / options_.simulations) * (options_.spread_seeds - 1);
-  const double limit =
-      factor * ((1 / sd_).matrix().asDiagonal() * spread).colwise().squaredNorm().maxCoeff();
-  std::vector<double> reach(x.size(), 0);
-  for (const Trial& trial : tried_) {
-    if (CostOf(trial.mean) > limit) continue;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      reach[k] = std::max(reach[k], std::abs(trial.x[k] - x[k]));
-    }
-  }
-  const double end = std::log(options_.range);
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    // What ends where the search had to is not known to end there.
-    if (std::abs(x[k]) > end - kNearEnd) reach[k] = std::numeric_limits<double>::infinity();
-  }
-  return reach;
 }
 
 void Search::Summarize(const std::vector<double>& x, const Eigen::MatrixXd& spread,
@@ -185,7 +175,6 @@ void Search::Summarize(const std::vector<double>& x, const Eigen::MatrixXd& spre
                             eigen.eigenvectors().transpose() * weighted.transpose();
   const Eigen::MatrixXd part = m * ((1 / sd_).matrix().asDiagonal() * spread);
   const Eigen::MatrixXd covariance = (1 + 1.0 / options_.simulations) * part * part.transpose();
-  const std::vector<double> reach = Reach(x, spread);
   fit->correlation.assign(static_cast<std::size_t>(p * p), 0);
   for (Eigen::Index a = 0; a < p; ++a) {
     // A direction that nothing feels leaves all that have a part in it unknown.
@@ -194,14 +183,94 @@ void Search::Summarize(const std::vector<double>& x, const Eigen::MatrixXd& spre
       felt = felt &&
              (eigen.eigenvalues()[d] > least || std::abs(eigen.eigenvectors()(a, d)) < kSmallPart);
     }
-    fit->log_sd.push_back(
-        felt ? std::max(std::sqrt(covariance(a, a)), reach[static_cast<std::size_t>(a)] / 1.96)
-             : std::numeric_limits<double>::infinity());
+    fit->log_sd.push_back(felt ? std::sqrt(covariance(a, a))
+                               : std::numeric_limits<double>::infinity());
     for (Eigen::Index b = 0; b < p; ++b) {
       const double scale = std::sqrt(covariance(a, a) * covariance(b, b));
       fit->correlation[static_cast<std::size_t>(a * p + b)] = a == b      ? 1
                                                               : scale > 0 ? covariance(a, b) / scale
                                                                           : 0;
+    }
+  }
+}
+
+// J of data that are any one of the spread's seeds, at most. Or the best J and its noise, which is
+// its range over those seeds: the search may end above them.
+double Search::Acceptable(const Eigen::MatrixXd& spread) const {
+  const double factor = (1 + 1.0 / options_.simulations) * (options_.spread_seeds - 1);
+  const Eigen::ArrayXd of_seeds =
+      factor * ((1 / sd_).matrix().asDiagonal() * spread).colwise().squaredNorm().array();
+  double least = std::numeric_limits<double>::infinity();
+  for (const Trial& trial : tried_) least = std::min(least, CostOf(trial.mean));
+  return std::max(of_seeds.maxCoeff(), least + of_seeds.maxCoeff() - of_seeds.minCoeff());
+}
+
+void Search::Cover(const std::vector<double>& x, double acceptable,
+                   std::vector<double>* log_sd) const {
+  for (const Trial& trial : tried_) {
+    if (CostOf(trial.mean) > acceptable) continue;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      (*log_sd)[k] = std::max((*log_sd)[k], std::abs(trial.x[k] - x[k]) / kInterval);
+    }
+  }
+}
+
+// From the best that was tried there, and from x moved just there and to the middle.
+bool Search::Challenge(const std::vector<double>& x, std::size_t k, double offset,
+                       double acceptable) {
+  const double end = std::log(options_.range);
+  std::vector<double> low(x.size(), -end), high(x.size(), end), step(x.size(), kFirstStep);
+  (offset > 0 ? low : high)[k] = x[k] + offset;
+  step[k] = std::min(step[k], 0.4 * (high[k] - low[k]));
+  std::vector<std::vector<double>> starts = {x, x};
+  starts[0][k] += offset;
+  starts[1][k] = (low[k] + high[k]) / 2;  // there may be a hill before it
+  const Trial* best = nullptr;
+  for (const Trial& trial : tried_) {
+    if (trial.x[k] < low[k] || trial.x[k] > high[k]) continue;
+    if (best == nullptr || CostOf(trial.mean) < CostOf(best->mean)) best = &trial;
+  }
+  if (best != nullptr) starts.insert(starts.begin(), best->x);
+  expected_ = evaluations_ + static_cast<int>(starts.size()) * options_.challenge_evaluations;
+  for (std::vector<double>& start : starts) {
+    nlopt::opt solver(nlopt::LN_BOBYQA, static_cast<unsigned>(x.size()));
+    solver.set_min_objective([](const std::vector<double>& at, std::vector<double>&,
+                                void* search) { return static_cast<Search*>(search)->Cost(at); },
+                             this);
+    solver.set_lower_bounds(low);
+    solver.set_upper_bounds(high);
+    solver.set_initial_step(step);
+    solver.set_maxeval(options_.challenge_evaluations);
+    solver.set_xtol_abs(1e-3);
+    solver.set_stopval(acceptable);
+    double cost = kImpossible;
+    try {
+      solver.optimize(start, cost);
+    } catch (const nlopt::roundoff_limited&) {
+      continue;  // nothing better near there
+    }
+    if (cost <= acceptable) return true;
+  }
+  return false;
+}
+
+void Search::Widen(const std::vector<double>& x, const Eigen::MatrixXd& spread,
+                   std::vector<double>* log_sd) {
+  const double acceptable = Acceptable(spread);
+  const double end = std::log(options_.range);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    // What ends near where the search had to is not known to end there.
+    if (std::abs(x[k]) > end - options_.known - kNearEnd) {
+      (*log_sd)[k] = std::numeric_limits<double>::infinity();
+    }
+  }
+  Cover(x, acceptable, log_sd);
+  for (std::size_t k = 0; k + static_cast<std::size_t>(options_.nuisance) < x.size(); ++k) {
+    while (kInterval * (*log_sd)[k] <= options_.known) {
+      const double off =
+          std::min(std::max(kExcluded * (*log_sd)[k], kLeastChallenge), 1.01 * options_.known);
+      if (!Challenge(x, k, -off, acceptable) && !Challenge(x, k, off, acceptable)) break;
+      Cover(x, acceptable, log_sd);
     }
   }
 }
@@ -212,6 +281,7 @@ SimulatedFit Search::Run() {
   Eigen::MatrixXd spread;
   fit.estimate = start_;
   if (!TakeSpread(x, &spread)) return fit;
+  expected_ = options_.global_evaluations + options_.local_evaluations;
   fit.start_cost = Cost(x);
   if (!(fit.start_cost < kImpossible)) return fit;
   if (options_.search != SimulatedSearch::kBobyqa) {
@@ -223,8 +293,9 @@ SimulatedFit Search::Run() {
   if (!TakeSpread(x, &spread)) return fit;
   fit.usable = true;
   fit.estimate = Theta(x);
-  fit.evaluations = evaluations_;
   Summarize(x, spread, &fit);
+  Widen(x, spread, &fit.log_sd);
+  fit.evaluations = evaluations_;
   return fit;
 }
 

@@ -12,9 +12,13 @@
 // estimate,
 //   cov log theta = (1 + 1/R) M C M',   M = (G' W G)^-1 G' W
 // so that what the statistics do not feel, beside their spread from seed to seed, has a large sd.
-// That is the bend of J at one point, and J may be as low far away: the sd is no less than 1 / 1.96
-// of the way to the farthest theta tried whose J is no greater than another seed of the estimate
-// would have as data, and infinite where the search ended at its bounds.
+// That is the bend of J at one point, and J may be as low far away. Acceptable is a theta whose J
+// is no greater than another seed of the estimate would have as data, or no farther above the best
+// J than J differs between such seeds. The sd is no less than 1 / 1.96 of the way to the farthest
+// acceptable theta tried. As long as that leaves a parameter known, the others are fitted again
+// with it held 3 sd or more away, on either side (BOBYQA in that part of the search's box, from
+// three places), until nothing acceptable is found there or it is no longer known. Of one that is
+// not known the sd is a least one; it is infinite where the search ended near its bounds.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_SIMULATED_FIT_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_SIMULATED_FIT_H_
@@ -38,6 +42,9 @@ struct SimulatedFitOptions {
   double range = 5;                                       // above 1
   int spread_seeds = 12;                                  // that sd_q and C are taken from
   double difference = 0.1;                                // of log theta, for G
+  double known = 0.25;             // half a 95 % interval of log theta that is worth a challenge
+  int challenge_evaluations = 30;  // at most, from each of three starts on either side
+  int nuisance = 0;                // of theta, at its end: fitted, never challenged
   std::uint64_t seed = 1;
   int threads = 1;
 };

@@ -18,8 +18,7 @@
 namespace flocklift::internal {
 namespace {
 
-constexpr double kKnown = 0.25;  // a parameter whose interval is within this share is determined
-constexpr double kMisfit = 2;    // sd from seed to seed: above, a statistic is not matched
+constexpr double kMisfit = 2;  // sd from seed to seed: above, a statistic is not matched
 
 std::vector<FramePositions> FramesOf(const Trajectories& trajectories) {
   const FrameSpan span = SpanOf(trajectories);
@@ -124,7 +123,8 @@ std::vector<double> StartValues(const ModelSpec& model, const std::vector<std::s
   return values;
 }
 
-void AddWeights(const std::vector<std::string>& free, const SimulatedFit& fit, FitResult* result) {
+void AddWeights(const std::vector<std::string>& free, const SimulatedFit& fit, double known,
+                FitResult* result) {
   ParameterPosterior& posterior = result->parameters.posterior;
   for (std::size_t k = 0; k < free.size(); ++k) {
     FittedWeight weight;
@@ -132,7 +132,7 @@ void AddWeights(const std::vector<std::string>& free, const SimulatedFit& fit, F
     weight.value = weight.estimate = fit.estimate[k];
     weight.sd = fit.estimate[k] * fit.log_sd[k];
     weight.plain = std::nan("");
-    weight.determined = 1.96 * fit.log_sd[k] < kKnown;
+    weight.determined = 1.96 * fit.log_sd[k] < known;
     result->parameters.model.parameters[free[k]] = weight.value;
     posterior.free.push_back(weight.name);
     posterior.sd.push_back(weight.sd);
@@ -203,14 +203,17 @@ FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
   search.range = options.search_range;
   search.seed = seed;
   search.threads = threads;
-  if (own_speed) values.push_back(1);
+  if (own_speed) {
+    values.push_back(1);
+    search.nuisance = 1;
+  }
   const SimulatedFit fit = FitSimulated(search, simulate, *data, values, progress);
   if (!fit.usable) {
     throw InputError(model.where, 0, "the model does not fly from where the fit starts",
                      "give other values by --set");
   }
   result.rows = result.animals * static_cast<std::int64_t>(result.frames);
-  AddWeights(free, fit, &result);
+  AddWeights(free, fit, search.known, &result);
   if (own_speed) {
     for (const double speed : start.swarm.cruising_speed) {
       result.own_speed_mean +=

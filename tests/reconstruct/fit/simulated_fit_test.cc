@@ -104,6 +104,40 @@ TEST(SimulatedFit, FlagsARidgeAndAnEnd) {
   EXPECT_TRUE(std::isinf(fit.log_sd[2]));
 }
 
+// Statistics that are as good at log theta_0 = 0.2 as at -0.8, with a hill between, at which
+// theta_1 has to be another too: the bend of J at either tells nothing of the other. Theta_2 is
+// known.
+TEST(SimulatedFit, FlagsWhatIsMatchedFarAwayToo) {
+  const auto wells = [](const std::vector<double>& theta, std::uint64_t seed) {
+    MotionStatistics s{};
+    Rng rng(seed, 5);
+    const double well = std::pow(std::log(theta[0]) + 0.3, 2);
+    const double along = std::log(theta[1]) + 0.5 * std::log(theta[0]);
+    for (std::size_t k = 0; k < s.size(); ++k) {
+      const double of[] = {well, along, std::log(theta[2])};
+      s[k] = of[k % 3] + 0.01 * rng.Normal();
+    }
+    return std::optional(s);
+  };
+  const std::vector<double> truth = {std::exp(0.2), std::exp(-0.1), std::exp(0.1)};
+  const std::vector<double> other = {std::exp(-0.8), std::exp(0.4), std::exp(0.1)};
+  for (const SimulatedSearch search : {SimulatedSearch::kBobyqa, SimulatedSearch::kCrs}) {
+    SimulatedFitOptions options;
+    options.search = search;
+    const SimulatedFit fit = FitSimulated(options, wells, *wells(truth, 77), {1, 1, 1});
+    const SimulatedFit again = FitSimulated(options, wells, *wells(truth, 77), {1, 1, 1});
+    ASSERT_TRUE(fit.usable);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_LT(std::abs(std::log(fit.estimate[k] / truth[k])), 3 * fit.log_sd[k]) << k;
+      EXPECT_LT(std::abs(std::log(fit.estimate[k] / other[k])), 3 * fit.log_sd[k]) << k;
+    }
+    EXPECT_GT(1.96 * fit.log_sd[0], options.known);
+    EXPECT_GT(1.96 * fit.log_sd[1], options.known);
+    EXPECT_LT(1.96 * fit.log_sd[2], options.known);
+    EXPECT_EQ(fit.log_sd, again.log_sd);
+  }
+}
+
 TEST(SimulatedFit, EverySearchEndsAtTheTruthOfStatisticsWithoutNoise) {
   const auto exact = [](const std::vector<double>& theta, std::uint64_t) {
     MotionStatistics s{};
