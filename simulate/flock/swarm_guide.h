@@ -5,6 +5,9 @@
 // over the scene's box (simulate/fields/cost_field.h), and both in the cells that the swarm's
 // kernel reads (simulate/flock/kernels/swarm_kernel.h). The box counts as a wall seen from within;
 // one cell beyond it still belongs to the grid and leads back inside.
+//
+// Where there is one goal and the straight line to it is clear of all repulsion, that line is the
+// cheapest way: such a cell points along it, and no front needs to march there.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_SWARM_GUIDE_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_SWARM_GUIDE_H_
@@ -46,11 +49,17 @@ class GuideField {
   double WallReach() const { return 2 * grid().spacing; }
 
  private:
+  void Unpack();
+  bool Sees(std::size_t cell) const;
   void PackAll();
   void PackCell(std::size_t cell);
+  GridPlace Place(std::size_t cell) const;
   std::array<std::size_t, 8> Corners(std::size_t cell) const;
 
   ScalarField distance_;
+  CostOptions options_;
+  std::vector<Ball> goals_;
+  bool crowded_ = false;  // places have further costs
   std::optional<CostField> cost_;
   int threads_;
   std::vector<std::int8_t> cells_;    // with room to begin on a cache line

@@ -72,5 +72,42 @@ TEST(GuideField, LeadsToTheGoalWithTheSpeedAskedFor) {
   EXPECT_NEAR(behind.distance, 0.4, 0.05);
 }
 
+// In a wide room the way is straight; a front that marches through a grid bends it.
+TEST(GuideField, PointsStraightAtAGoalInPlainSight) {
+  World hall;
+  hall.box = {{0, 0, 0}, {30, 20, 12}};
+  const Vec3d goal{21, 13, 5};
+  const GuideField guide(hall, 0.25, {}, GoalAt(goal), 1);
+  Rng rng(6);
+  for (int k = 0; k < 500; ++k) {
+    const Vec3d at{rng.Uniform(2, 28), rng.Uniform(2, 18), rng.Uniform(2, 10)};
+    if (Norm(goal - at) < 1.5) continue;
+    const Vec3d way = SampleGuide<double>(guide.View(1), at).velocity;
+    // A part is told in 127ths.
+    EXPECT_LT(Norm(way - Normalized(goal - at)), 0.02) << k;
+  }
+}
+
+// What is in sight of a goal through a window needs no march; what is not does, and both agree on
+// where to go.
+TEST(GuideField, WhoFollowsItArrivesFromBehindAWall) {
+  World world;
+  world.box = {{0, 0, 0}, {16, 10, 8}};
+  world.obstacles.push_back({{}, Block{{8, 0, 0}, {9, 10, 3}}});
+  world.obstacles.push_back({{}, Block{{8, 0, 6}, {9, 10, 8}}});
+  const std::vector<GoalSpec> goals = GoalAt({14, 5, 2});
+  const GuideField guide(world, 0.25, {}, goals, 1);
+  Rng rng(7);
+  for (int k = 0; k < 200; ++k) {
+    Vec3d at{rng.Uniform(0.1, 7.9), rng.Uniform(0.1, 9.9), rng.Uniform(0.1, 7.9)};
+    int steps = 0;
+    while (Norm(at - goals[0].position) > goals[0].reach && steps < 1000) {
+      at += 0.05 * SampleGuide<double>(guide.View(1), at).velocity;
+      ++steps;
+    }
+    EXPECT_LT(steps, 600) << k;  // 30 m
+  }
+}
+
 }  // namespace
 }  // namespace flocklift
