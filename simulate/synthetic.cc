@@ -5,14 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
 #include <optional>
 
 #include "simulate/camera/projection.h"
 #include "simulate/core/check.h"
-#include "simulate/core/parallel_for.h"
 #include "simulate/core/rng.h"
+#include "simulate/observe_frames.h"
 #include "simulate/render/body.h"
 #include "simulate/render/flight.h"
 #include "simulate/render/speck.h"
@@ -23,11 +21,6 @@ namespace {
 
 constexpr std::uint64_t kClutterStream = 0x636c7574746572;
 constexpr std::uint64_t kOrderStream = 0x6f72646572;
-
-struct Row {
-  Id id;
-  Detection detection;
-};
 
 // The place in the image, if the sensor has it; a first look before any body is made.
 std::optional<Vec2d> PlaceOnSensor(const Vec3d& in_cam, const Camera& camera) {
@@ -94,54 +87,24 @@ int Poisson(double mean, Rng* rng) {
 
 Tracks SynthesizeTracks(const Trajectories& trajectories, std::span<const Animal> animals,
                         const Camera& camera, double fps, int threads, const Scenery* scenery) {
-  constexpr std::int64_t kGrain = 32;  // frames that share one depth buffer
   const Flight flight(trajectories, animals, camera, fps);
-  const FrameSpan span = flight.span();
-  const std::int64_t frames = std::max(0, span.last - span.first + 1);
-  std::vector<std::vector<Row>> rows(static_cast<std::size_t>(frames));
-  const bool may_hide = scenery != nullptr && !scenery->empty();
-  const SurfacePainter painter(camera);
   const SpeckAreas areas;
-  ParallelFor(threads, 0, frames, kGrain, [&](std::int64_t first, std::int64_t last) {
-    std::unique_ptr<DepthBuffer> surfaces;
-    if (may_hide) surfaces = std::make_unique<DepthBuffer>(camera.width, camera.height);
-    std::optional<Rigid3d> drawn_from;
-    for (std::int64_t k = first; k < last; ++k) {
-      const int frame = span.first + static_cast<int>(k);
-      const Rigid3d cam_from_world = camera.CamFromWorld(frame);
-      if (surfaces && (scenery->SurfacesMove() || drawn_from != cam_from_world)) {
-        surfaces->Clear();
-        drawn_from = cam_from_world;
-        scenery->WithSurfaces(frame, [&](std::span<const Surface> views) {
-          for (const Surface& view : views) painter.Draw(view, cam_from_world, 0, surfaces.get());
-        });
-      }
-      const double time = flight.TimeOf(frame);
-      const auto is_in_view = [&](const Vec3d& position) {
-        return PlaceOnSensor(cam_from_world * position, camera).has_value();
-      };
-      for (const FlyingAnimal& animal : flight.At(frame, is_in_view)) {
-        const double depth = (cam_from_world * animal.position).z;
-        auto seen = SizePx(animal.animal, depth, camera) < kTablePx
-                        ? ObserveSpeck(animal, time, areas, camera, cam_from_world, surfaces.get())
-                        : ObserveBody(animal, time, camera, cam_from_world, surfaces.get());
-        if (!seen) continue;
-        seen->frame = frame;
-        rows[static_cast<std::size_t>(k)].push_back({animal.animal.id, *std::move(seen)});
-      }
-    }
-  });
-  std::map<Id, Tracklet> by_id;
-  for (std::vector<Row>& frame : rows) {
-    for (Row& row : frame) {
-      Tracklet& tracklet = by_id[row.id];
-      tracklet.id = row.id;
-      tracklet.detections.push_back(std::move(row.detection));
-    }
-  }
-  Tracks tracks{.fps = fps, .tracklets = {}};
-  for (auto& [id, tracklet] : by_id) tracks.tracklets.push_back(std::move(tracklet));
-  return tracks;
+  return ObserveFrames(
+      flight.span(), fps, camera, scenery, threads,
+      [&](int frame, const Rigid3d& cam_from_world, const DepthBuffer* surfaces,
+          std::vector<SeenAnimal>* seen) {
+        const double time = flight.TimeOf(frame);
+        const auto is_in_view = [&](const Vec3d& position) {
+          return PlaceOnSensor(cam_from_world * position, camera).has_value();
+        };
+        for (const FlyingAnimal& animal : flight.At(frame, is_in_view)) {
+          const double depth = (cam_from_world * animal.position).z;
+          auto found = SizePx(animal.animal, depth, camera) < kTablePx
+                           ? ObserveSpeck(animal, time, areas, camera, cam_from_world, surfaces)
+                           : ObserveBody(animal, time, camera, cam_from_world, surfaces);
+          if (found) seen->push_back({animal.animal.id, *std::move(found)});
+        }
+      });
 }
 
 Tracks SynthesizeNoise(const ObservationNoise& noise, std::uint64_t seed, const Tracks& tracks) {

@@ -9,6 +9,7 @@
 
 #include "simulate/render/surface.h"
 #include "simulate/shapes/animated_mesh_frames.h"
+#include "simulate/tetrahedra_tracks.h"
 
 namespace flocklift {
 namespace {
@@ -16,6 +17,16 @@ namespace {
 constexpr std::array<Color, 3> kTones{{{70, 140, 225}, {190, 130, 60}, {90, 170, 110}}};
 
 bool IsMorph(const SpeciesSpec& species) { return species.model.name == "morph"; }
+
+// Calls use(k, is_tetrahedron) for every animal of a result, in order.
+template <typename Use>
+void ForEachAnimal(const Scene& scene, const SceneResult& result, const Use& use) {
+  std::size_t next = 0;
+  for (const SpeciesSpec& species : scene.species) {
+    for (int k = 0; k < species.count; ++k) use(next++, IsMorph(species));
+  }
+  while (next < result.animals.size()) use(next++, false);  // the predators
+}
 
 }  // namespace
 
@@ -40,23 +51,29 @@ void AddTetrahedra(const Scene& scene, const std::filesystem::path& path, Scener
   scenery->AddSurface(std::move(surface));
 }
 
+Tracks TetrahedraTracks(const Scene& scene, const SceneResult& result,
+                        const std::filesystem::path& path, const Camera& camera, int threads,
+                        const Scenery* scenery) {
+  std::vector<Id> ids;
+  ForEachAnimal(scene, result, [&](std::size_t k, bool is_tetrahedron) {
+    if (is_tetrahedron) ids.push_back(result.animals[k].id);
+  });
+  const AnimatedMeshFrames frames(path);
+  return SynthesizeTetrahedraTracks(
+      ids, [&](int frame) { return frames.Frame(static_cast<std::size_t>(frame - 1)); },
+      {1, scene.FrameCount()}, camera, scene.fps, threads, scenery);
+}
+
 DrawnAnimals WithoutTetrahedra(const Scene& scene, const SceneResult& result) {
   DrawnAnimals drawn;
   drawn.trajectories.fps = result.truth.fps;
   drawn.trajectories.has_velocity = result.truth.has_velocity;
   drawn.trajectories.has_orientation = result.truth.has_orientation;
-  std::size_t next = 0;
-  const auto take = [&](std::size_t end, bool draws) {
-    for (; next < end; ++next) {
-      if (!draws) continue;
-      drawn.trajectories.trajectories.push_back(result.truth.trajectories[next]);
-      drawn.animals.push_back(result.animals[next]);
-    }
-  };
-  for (const SpeciesSpec& species : scene.species) {
-    take(next + static_cast<std::size_t>(species.count), !IsMorph(species));
-  }
-  take(result.animals.size(), true);  // the predators
+  ForEachAnimal(scene, result, [&](std::size_t k, bool is_tetrahedron) {
+    if (is_tetrahedron) return;
+    drawn.trajectories.trajectories.push_back(result.truth.trajectories[k]);
+    drawn.animals.push_back(result.animals[k]);
+  });
   return drawn;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The species of a scene that are tetrahedra (model morph): their film is a moving surface instead
-// of animals.
+// of animals, and their true observations are those of tetrahedra.
 
 #ifndef FLOCKLIFT_TOOLS_SCENE_TETRAHEDRA_H_
 #define FLOCKLIFT_TOOLS_SCENE_TETRAHEDRA_H_
@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "simulate/camera/camera.h"
 #include "simulate/core/animal.h"
 #include "simulate/core/scene.h"
 #include "simulate/flock/simulate_scene.h"
@@ -21,6 +22,11 @@ bool HasTetrahedra(const Scene& scene);
 
 // Adds what SimulateScene wrote to `path`, read back frame by frame; each species has its colour.
 void AddTetrahedra(const Scene& scene, const std::filesystem::path& path, Scenery* scenery);
+
+// Their true observations, as SynthesizeTetrahedraTracks has them.
+Tracks TetrahedraTracks(const Scene& scene, const SceneResult& result,
+                        const std::filesystem::path& path, const Camera& camera, int threads,
+                        const Scenery* scenery);
 
 // What of a result is left to be drawn as animals.
 struct DrawnAnimals {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -126,9 +127,14 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   const Trajectories& filmed = others ? others->trajectories : result.truth;
   const std::vector<Animal>& animals = others ? others->animals : result.animals;
   stage.BeginPhase("observe");
-  const Tracks tracks =
-      SynthesizeTracks(result.truth, result.animals, camera, scene.fps, common.ThreadCount(),
-                       scene.render.obstacles ? &obstacles : nullptr);
+  const Scenery* const hides = scene.render.obstacles ? &obstacles : nullptr;
+  Tracks tracks = SynthesizeTracks(filmed, animals, camera, scene.fps, common.ThreadCount(), hides);
+  if (morphs) {
+    Tracks more = TetrahedraTracks(scene, result, mesh, camera, common.ThreadCount(), hides);
+    std::move(more.tracklets.begin(), more.tracklets.end(), std::back_inserter(tracks.tracklets));
+    std::sort(tracks.tracklets.begin(), tracks.tracklets.end(),
+              [](const Tracklet& a, const Tracklet& b) { return a.id < b.id; });
+  }
   const FilmOptions film{.fps = scene.fps,
                          .frames = scene.FrameCount(),
                          .seed = scene.seed,
