@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 #include "simulate/render/surface.h"
 #include "simulate/shapes/animated_mesh_frames.h"
@@ -51,17 +53,20 @@ void AddTetrahedra(const Scene& scene, const std::filesystem::path& path, Scener
   scenery->AddSurface(std::move(surface));
 }
 
-Tracks TetrahedraTracks(const Scene& scene, const SceneResult& result,
-                        const std::filesystem::path& path, const Camera& camera, int threads,
-                        const Scenery* scenery) {
+void AddTetrahedraTracks(const Scene& scene, const SceneResult& result,
+                         const std::filesystem::path& path, const Camera& camera, int threads,
+                         const Scenery* scenery, Tracks* tracks) {
   std::vector<Id> ids;
   ForEachAnimal(scene, result, [&](std::size_t k, bool is_tetrahedron) {
     if (is_tetrahedron) ids.push_back(result.animals[k].id);
   });
   const AnimatedMeshFrames frames(path);
-  return SynthesizeTetrahedraTracks(
+  Tracks more = SynthesizeTetrahedraTracks(
       ids, [&](int frame) { return frames.Frame(static_cast<std::size_t>(frame - 1)); },
       {1, scene.FrameCount()}, camera, scene.fps, threads, scenery);
+  std::move(more.tracklets.begin(), more.tracklets.end(), std::back_inserter(tracks->tracklets));
+  std::sort(tracks->tracklets.begin(), tracks->tracklets.end(),
+            [](const Tracklet& a, const Tracklet& b) { return a.id < b.id; });
 }
 
 DrawnAnimals WithoutTetrahedra(const Scene& scene, const SceneResult& result) {

@@ -23,10 +23,10 @@ bool HasTetrahedra(const Scene& scene);
 // Adds what SimulateScene wrote to `path`, read back frame by frame; each species has its colour.
 void AddTetrahedra(const Scene& scene, const std::filesystem::path& path, Scenery* scenery);
 
-// Their true observations, as SynthesizeTetrahedraTracks has them.
-Tracks TetrahedraTracks(const Scene& scene, const SceneResult& result,
-                        const std::filesystem::path& path, const Camera& camera, int threads,
-                        const Scenery* scenery);
+// Adds their true observations, as SynthesizeTetrahedraTracks has them; tracks stay sorted by id.
+void AddTetrahedraTracks(const Scene& scene, const SceneResult& result,
+                         const std::filesystem::path& path, const Camera& camera, int threads,
+                         const Scenery* scenery, Tracks* tracks);
 
 // What of a result is left to be drawn as animals.
 struct DrawnAnimals {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -86,6 +85,7 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   stage.options()["seed"] = scene.seed;
   stage.options()["fps"] = scene.fps;
   stage.options()["video"] = !command.no_video;
+  stage.options()["tracks"] = !command.no_tracks;
   stage.options()["still"] = command.still;
   stage.options()["duration"] = scene.duration;
   stage.options()["size"] = fmt::format("{}x{}", camera.width, camera.height);
@@ -97,9 +97,9 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   for (const ShapeSpec& shape : scene.shapes) {
     for (const ShapeSpec::KeyFrame& frame : shape.key_frames) stage.AddInput(frame.mesh);
   }
-  for (const char* output : {"trajectories.csv", "tracks_true.csv", "camera.yaml"}) {
-    stage.AddOutput(output);
-  }
+  stage.AddOutput("trajectories.csv");
+  if (!command.no_tracks) stage.AddOutput("tracks_true.csv");
+  stage.AddOutput("camera.yaml");
   const bool morphs = HasTetrahedra(scene);
   const std::filesystem::path mesh =
       morphs ? common.out / "tetrahedra.glb" : std::filesystem::path{};
@@ -126,14 +126,14 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   }
   const Trajectories& filmed = others ? others->trajectories : result.truth;
   const std::vector<Animal>& animals = others ? others->animals : result.animals;
-  stage.BeginPhase("observe");
-  const Scenery* const hides = scene.render.obstacles ? &obstacles : nullptr;
-  Tracks tracks = SynthesizeTracks(filmed, animals, camera, scene.fps, common.ThreadCount(), hides);
-  if (morphs) {
-    Tracks more = TetrahedraTracks(scene, result, mesh, camera, common.ThreadCount(), hides);
-    std::move(more.tracklets.begin(), more.tracklets.end(), std::back_inserter(tracks.tracklets));
-    std::sort(tracks.tracklets.begin(), tracks.tracklets.end(),
-              [](const Tracklet& a, const Tracklet& b) { return a.id < b.id; });
+  std::optional<Tracks> tracks;
+  if (!command.no_tracks) {
+    stage.BeginPhase("observe");
+    const Scenery* const hides = scene.render.obstacles ? &obstacles : nullptr;
+    tracks = SynthesizeTracks(filmed, animals, camera, scene.fps, common.ThreadCount(), hides);
+    if (morphs) {
+      AddTetrahedraTracks(scene, result, mesh, camera, common.ThreadCount(), hides, &*tracks);
+    }
   }
   const FilmOptions film{.fps = scene.fps,
                          .frames = scene.FrameCount(),
@@ -148,7 +148,7 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   }
   stage.BeginPhase("write", "files");
   WriteTrajectories(common.out / "trajectories.csv", result.truth);
-  WriteTrueTracks(common.out / "tracks_true.csv", tracks);
+  if (tracks) WriteTrueTracks(common.out / "tracks_true.csv", *tracks);
   WriteCamera(common.out / "camera.yaml", camera);
   if (command.still) {
     WritePng(common.out / "still.png",
@@ -179,6 +179,9 @@ void AddSimulateCommand(CLI::App& app) {
                                 "a scene file (TOML; data_synthetic/README.md describes it)");
   sub->add_option("--seed", command->seed, "of all random numbers, instead of the scene's");
   sub->add_flag("--no-video", command->no_video, "write no video.mp4");
+  sub->add_flag("--no-tracks", command->no_tracks,
+                "write no tracks_true.csv: to look at every animal in every frame takes longer "
+                "than to make it fly");
   sub->add_flag("--still", command->still, "write still.png, the last frame of the film");
   sub->add_option("--until", command->until, "end the scene after so many seconds");
   sub->add_option("--size", command->size, "of the image in pixels, WIDTHxHEIGHT: the same view");

@@ -20,6 +20,7 @@ struct SimulateCommand {
   std::filesystem::path scene;
   std::optional<std::uint64_t> seed;  // overrides the scene's
   bool no_video = false;
+  bool no_tracks = false;       // nor look at every animal in every frame
   bool still = false;           // still.png: the last frame
   std::optional<double> until;  // ends the scene earlier [s]
   std::string size;             // "WIDTHxHEIGHT" instead of the camera's; empty: the camera's

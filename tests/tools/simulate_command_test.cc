@@ -98,6 +98,15 @@ TEST_F(SimulateCommandTest, WritesTheFilesOfTheContract) {
   EXPECT_GT(summary["phases"][1]["wall_s"], 0);
 }
 
+TEST_F(SimulateCommandTest, WithoutTracksThePathsAreTheSame) {
+  const fs::path scene = Scene();
+  const fs::path with = Run(scene, "--no-video", "with");
+  const fs::path without = Run(scene, "--no-video --no-tracks", "without");
+  EXPECT_TRUE(fs::exists(with / "tracks_true.csv"));
+  EXPECT_FALSE(fs::exists(without / "tracks_true.csv"));
+  EXPECT_EQ(Slurp(with / "trajectories.csv"), Slurp(without / "trajectories.csv"));
+}
+
 TEST_F(SimulateCommandTest, SameBytesAtAnyThreadCount) {
   const fs::path scene = Scene();
   const fs::path one = Run(scene, "--threads 1", "one"), two = Run(scene, "--threads 2", "two");
