@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "simulate/core/check.h"
+#include "simulate/render/soft_normals.h"
 
 namespace flocklift {
 namespace {

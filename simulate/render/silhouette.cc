@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include "simulate/core/check.h"
-
 namespace flocklift {
 namespace {
 
@@ -191,35 +189,6 @@ void Silhouette::Shift(const Vec2d& offset) {
     t.right_at_top += offset.x;
     t.right_at_bottom += offset.x;
   }
-}
-
-ConvexPolygon HullOf(std::span<const Vec2d> points) {
-  FLOCKLIFT_DCHECK(points.size() <= ConvexPolygon::kMaxCorners);
-  std::array<Vec2d, ConvexPolygon::kMaxCorners> sorted;
-  const auto end = std::copy(points.begin(), points.end(), sorted.begin());
-  std::sort(sorted.begin(), end,
-            [](const Vec2d& a, const Vec2d& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  // Monotone chain (Andrew 1979): the lower side from left to right, then the upper side back.
-  const int n = static_cast<int>(points.size());
-  std::array<Vec2d, 2 * ConvexPolygon::kMaxCorners> hull;
-  int size = 0;
-  const auto add = [&](const Vec2d& p, int keep) {
-    const auto at = [&](int k) { return hull[static_cast<std::size_t>(k)]; };
-    while (size >= keep + 2) {
-      const Vec2d a = at(size - 2), b = at(size - 1);
-      if ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) > 0) break;
-      --size;
-    }
-    hull[static_cast<std::size_t>(size++)] = p;
-  };
-  for (int k = 0; k < n; ++k) add(sorted[static_cast<std::size_t>(k)], 0);
-  const int lower = size - 1;
-  for (int k = n - 2; k >= 0; --k) add(sorted[static_cast<std::size_t>(k)], lower);
-  ConvexPolygon polygon;
-  for (int k = 0; k < std::max(size - 1, std::min(n, 1)); ++k) {
-    polygon.Add(hull[static_cast<std::size_t>(k)]);
-  }
-  return polygon;
 }
 
 Silhouette UnionOf(std::span<const ConvexPolygon> polygons) {

@@ -9,23 +9,14 @@
 #ifndef FLOCKLIFT_SIMULATE_RENDER_SILHOUETTE_H_
 #define FLOCKLIFT_SIMULATE_RENDER_SILHOUETTE_H_
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include "simulate/core/observations.h"
 #include "simulate/core/vec3.h"
+#include "simulate/render/convex_polygon.h"
 
 namespace flocklift {
-
-// Corners in order, in either sense of rotation [px]. May be degenerate (seen edge-on).
-struct ConvexPolygon {
-  static constexpr int kMaxCorners = 12;
-  std::array<Vec2d, kMaxCorners> corner;
-  int corners = 0;
-
-  void Add(const Vec2d& point) { corner[static_cast<std::size_t>(corners++)] = point; }
-};
 
 // Between y = top and y = bottom, from the left edge to the right edge [px].
 struct Trapezoid {
@@ -39,9 +30,6 @@ struct Silhouette {
 
   void Shift(const Vec2d& offset);
 };
-
-// The smallest convex polygon around at most kMaxCorners points.
-ConvexPolygon HullOf(std::span<const Vec2d> points);
 
 Silhouette UnionOf(std::span<const ConvexPolygon> polygons);
 

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "simulate/camera/camera.h"
-#include "simulate/core/triangle_mesh.h"
 #include "simulate/core/vec3.h"
 #include "simulate/render/depth_buffer.h"
 #include "simulate/render/draw.h"
@@ -32,11 +31,6 @@ struct Surface {
   std::span<const Vec3d> velocities;  // of each vertex [m/s]; empty: it is at rest
   bool is_closed = false;  // faces seen from inside are hidden by others: they need no drawing
 };
-
-// Normals for soft shading: at each corner of each triangle (3 T) the mean of the normals of the
-// triangles that meet at its vertex, weighted by their angle there. Triangles that turn away by
-// more than `crease_deg` are left out, so that the edges of a box stay sharp.
-std::vector<Vec3d> SoftNormals(const TriangleMesh& mesh, double crease_deg = 40);
 
 // The faces of `count` tetrahedra whose corners stand four by four in an array: 4 x count
 // triangles that face outwards where (b - a) x (c - a) . (d - a) > 0.
