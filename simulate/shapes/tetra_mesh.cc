@@ -74,40 +74,44 @@ double Volume(const TetraMesh& mesh) {
 
 TriangleMesh Boundary(const TetraMesh& mesh) {
   struct Face {
-    std::array<std::uint32_t, 3> sorted;
-    std::uint32_t tetra, number;
+    std::uint64_t others;  // the two larger of its vertices
+    std::uint32_t number;  // 4 tetrahedron + which of its faces
   };
-  std::vector<Face> faces;
-  faces.reserve(4 * mesh.tetrahedra.size());
-  for (std::uint32_t k = 0; k < mesh.tetrahedra.size(); ++k) {
-    for (std::uint32_t f = 0; f < 4; ++f) {
-      Face face{{}, k, f};
-      for (std::size_t c = 0; c < 3; ++c) {
-        face.sorted[c] = mesh.tetrahedra[k][static_cast<std::size_t>(kTetraFaces[f][c])];
-      }
-      std::sort(face.sorted.begin(), face.sorted.end());
-      faces.push_back(face);
+  const std::size_t count = 4 * mesh.tetrahedra.size();
+  const auto corners = [&mesh](std::size_t number) {
+    std::array<std::uint32_t, 3> vertices{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      vertices[c] =
+          mesh.tetrahedra[number / 4][static_cast<std::size_t>(kTetraFaces[number % 4][c])];
+    }
+    return vertices;
+  };
+  // The faces by their smallest vertex: few have the same.
+  std::vector<std::uint32_t> first(mesh.vertices.size() + 2);
+  std::vector<std::array<std::uint32_t, 3>> sorted(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    sorted[k] = corners(k);
+    std::sort(sorted[k].begin(), sorted[k].end());
+    ++first[sorted[k][0] + 2];
+  }
+  for (std::size_t v = 2; v < first.size(); ++v) first[v] += first[v - 1];
+  std::vector<Face> faces(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    faces[first[sorted[k][0] + 1]++] = {std::uint64_t{sorted[k][1]} << 32 | sorted[k][2],
+                                        static_cast<std::uint32_t>(k)};
+  }
+  std::vector<std::uint8_t> is_shared(count);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto begin = faces.begin() + first[v], end = faces.begin() + first[v + 1];
+    std::sort(begin, end, [](const Face& a, const Face& b) { return a.others < b.others; });
+    for (auto face = begin; end - face > 1; ++face) {
+      if (face[0].others != face[1].others) continue;
+      is_shared[face[0].number] = is_shared[face[1].number] = 1;
     }
   }
-  std::stable_sort(faces.begin(), faces.end(),
-                   [](const Face& a, const Face& b) { return a.sorted < b.sorted; });
-  std::vector<Face> single;
-  for (std::size_t k = 0; k < faces.size();) {
-    std::size_t end = k + 1;
-    while (end < faces.size() && faces[end].sorted == faces[k].sorted) ++end;
-    if (end == k + 1) single.push_back(faces[k]);
-    k = end;
-  }
-  std::sort(single.begin(), single.end(), [](const Face& a, const Face& b) {
-    return std::pair(a.tetra, a.number) < std::pair(b.tetra, b.number);
-  });
   TriangleMesh boundary{mesh.vertices, {}};
-  for (const Face& face : single) {
-    const auto& corners = kTetraFaces[face.number];
-    const auto& t = mesh.tetrahedra[face.tetra];
-    boundary.triangles.push_back({t[static_cast<std::size_t>(corners[0])],
-                                  t[static_cast<std::size_t>(corners[1])],
-                                  t[static_cast<std::size_t>(corners[2])]});
+  for (std::size_t k = 0; k < count; ++k) {
+    if (is_shared[k] == 0) boundary.triangles.push_back(corners(k));
   }
   return boundary;
 }
