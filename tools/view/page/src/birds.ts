@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Many birds in one drawing: a small body with wings, placed and turned for each. All are one mesh
-// whose corners are placed here: browsers that emulate a graphics card draw instances one by one,
-// which takes ten times as long.
+// Many birds in one drawing: a small body with wings, placed, turned and lit for each. All are one
+// mesh whose corners are placed here: browsers that emulate a graphics card draw instances one by
+// one, which takes ten times as long. Where a flock's birds are few pixels wide, four faces are
+// enough for each.
 
 import * as THREE from 'three';
+
+import { Shape, shadeOf, shadesOf } from './shape';
 
 // Body x forward, y left, z up; wingspan 1.
 const CORNERS = [
@@ -24,92 +27,99 @@ const CORNERS = [
   [0.1, -0.26, 0.07],
   [-0.1, -0.5, 0.09],
 ];
-const FACES = [
+const WHOLE = [
   [0, 6, 4], [0, 4, 10], [0, 5, 6], [0, 10, 5],
   [1, 4, 6], [1, 10, 4], [1, 6, 5], [1, 5, 10],
   [1, 2, 3],
   [6, 8, 7], [8, 9, 7],
   [10, 11, 12], [12, 11, 13],
 ];
-const NUMBERS = 3 * CORNERS.length; // a bird's
+const FAR = [
+  [0, 2, 3], [0, 4, 5],
+  [8, 9, 11], [12, 7, 13],
+];
+const FEW = 300; // birds that are always drawn whole
+const SMALL = 22; // px of wingspan
+
+// Faces as numbers in a row: normal, middle, and the corners.
+const STRIDE = 15;
+function facesOf(list: number[][]): Float64Array {
+  const out = new Float64Array(STRIDE * list.length);
+  list.forEach((face, k) => {
+    const [a, b, c] = face.map((n) => new THREE.Vector3().fromArray(CORNERS[n]));
+    const normal = b.clone().sub(a).cross(c.clone().sub(a)).normalize();
+    const middle = a.clone().add(b).add(c).divideScalar(3);
+    out.set([normal, middle, a, b, c].flatMap((v) => v.toArray()), STRIDE * k);
+  });
+  return out;
+}
+const FACES = { whole: facesOf(WHOLE), far: facesOf(FAR) };
+
+// What a viewer sees of the flock, in its frame.
+export interface Sight {
+  eye: THREE.Vector3;
+  up: THREE.Vector3;
+  sun: THREE.Vector3; // towards it
+  pixels: number; // that a length of 1 has in the middle of the flock
+}
 
 export class Birds {
-  readonly mesh: THREE.Mesh;
-  private positions: THREE.BufferAttribute;
-  private colours: THREE.BufferAttribute;
-  private painted: string[] = []; // colour of each bird, as it stands in `colours`
-  private repainted = false;
-  private known = new Map<string, THREE.Color>(); // what a colour's name is in numbers
-  private turn = new THREE.Matrix4();
-  count = 0;
+  readonly shape: Shape;
+  private sight: Sight | null = null;
+  private faces = FACES.whole;
 
-  constructor(
-    private most: number,
-    opacity = 1,
-  ) {
-    const birds = Math.max(most, 1);
-    const attribute = () =>
-      new THREE.BufferAttribute(new Float32Array(NUMBERS * birds), 3).setUsage(THREE.DynamicDrawUsage);
-    this.positions = attribute();
-    this.colours = attribute();
-    const corners = FACES.flat();
-    const index = new Uint32Array(corners.length * birds);
-    for (let k = 0; k < birds; k++) {
-      corners.forEach((c, n) => (index[k * corners.length + n] = k * CORNERS.length + c));
-    }
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', this.positions);
-    geometry.setAttribute('color', this.colours);
-    geometry.setIndex(new THREE.BufferAttribute(index, 1));
-    const material = new THREE.MeshLambertMaterial({
-      side: THREE.DoubleSide,
-      flatShading: true,
-      vertexColors: true,
-      transparent: opacity < 1,
-      opacity,
-      depthWrite: opacity === 1,
-    });
-    this.mesh = new THREE.Mesh(geometry, material);
-    this.mesh.frustumCulled = false;
+  constructor(most: number, opacity = 1) {
+    this.shape = new Shape('triangles', 3 * WHOLE.length * Math.max(most, 1), opacity);
   }
 
-  begin(): void {
-    this.count = 0;
-    this.repainted = false;
+  // Of about `birds` birds of a size.
+  begin(sight: Sight, birds: number, size: number): void {
+    this.sight = sight;
+    this.faces = birds > FEW && size * sight.pixels < SMALL ? FACES.far : FACES.whole;
+    this.shape.begin();
   }
-  add(x: number, y: number, z: number, q: THREE.Quaternion, size: number, colour: string): void {
-    if (this.count >= this.most) return;
-    const m = this.turn.makeRotationFromQuaternion(q).elements;
-    const to = this.positions.array;
-    let at = NUMBERS * this.count;
-    for (const [forward, left, up] of CORNERS) {
-      to[at++] = x + size * (m[0] * forward + m[4] * left + m[8] * up);
-      to[at++] = y + size * (m[1] * forward + m[5] * left + m[9] * up);
-      to[at++] = z + size * (m[2] * forward + m[6] * left + m[10] * up);
+  // Turned by the quaternion w, x, y, z: world from body, of any length.
+  add(x: number, y: number, z: number, qw: number, qx: number, qy: number, qz: number, size: number,
+    colour: string): void {
+    const { faces, shape } = this;
+    if (!this.sight || shape.room < faces.length / 5) return;
+    const { eye, up, sun } = this.sight;
+    const s = 2 / Math.max(qw * qw + qx * qx + qy * qy + qz * qz, 1e-12);
+    const r00 = 1 - s * (qy * qy + qz * qz), r01 = s * (qx * qy - qz * qw), r02 = s * (qx * qz + qy * qw);
+    const r10 = s * (qx * qy + qz * qw), r11 = 1 - s * (qx * qx + qz * qz), r12 = s * (qy * qz - qx * qw);
+    const r20 = s * (qx * qz - qy * qw), r21 = s * (qy * qz + qx * qw), r22 = 1 - s * (qx * qx + qy * qy);
+    // Eye, up and the sun as the bird sees them.
+    const dx = (eye.x - x) / size, dy = (eye.y - y) / size, dz = (eye.z - z) / size;
+    const ex = r00 * dx + r10 * dy + r20 * dz;
+    const ey = r01 * dx + r11 * dy + r21 * dz;
+    const ez = r02 * dx + r12 * dy + r22 * dz;
+    const ux = r00 * up.x + r10 * up.y + r20 * up.z;
+    const uy = r01 * up.x + r11 * up.y + r21 * up.z;
+    const uz = r02 * up.x + r12 * up.y + r22 * up.z;
+    const sx = r00 * sun.x + r10 * sun.y + r20 * sun.z;
+    const sy = r01 * sun.x + r11 * sun.y + r21 * sun.z;
+    const sz = r02 * sun.x + r12 * sun.y + r22 * sun.z;
+    const { place, colour: paint } = shape;
+    const shades = shadesOf(colour);
+    let at = shape.count;
+    for (let k = 0; k < faces.length; k += STRIDE) {
+      const nx = faces[k], ny = faces[k + 1], nz = faces[k + 2];
+      // The side that is seen is the one that is lit: by the sky more than by the ground, and by the sun.
+      const side = nx * (ex - faces[k + 3]) + ny * (ey - faces[k + 4]) + nz * (ez - faces[k + 5]) < 0 ? -1 : 1;
+      const toUp = side * (nx * ux + ny * uy + nz * uz);
+      const toSun = side * (nx * sx + ny * sy + nz * sz);
+      const shade = shades[shadeOf(toUp, toSun)];
+      for (let c = k + 6; c < k + STRIDE; c += 3) {
+        const cx = size * faces[c], cy = size * faces[c + 1], cz = size * faces[c + 2];
+        place[3 * at] = x + r00 * cx + r01 * cy + r02 * cz;
+        place[3 * at + 1] = y + r10 * cx + r11 * cy + r12 * cz;
+        place[3 * at + 2] = z + r20 * cx + r21 * cy + r22 * cz;
+        paint[at++] = shade;
+      }
     }
-    if (this.painted[this.count] !== colour) this.paint(this.count, colour);
-    this.count++;
-  }
-  private paint(bird: number, colour: string): void {
-    let shade = this.known.get(colour);
-    if (!shade) this.known.set(colour, (shade = new THREE.Color(colour)));
-    const to = this.colours.array;
-    for (let at = NUMBERS * bird; at < NUMBERS * (bird + 1); at += 3) {
-      to[at] = shade.r;
-      to[at + 1] = shade.g;
-      to[at + 2] = shade.b;
-    }
-    this.painted[bird] = colour;
-    this.repainted = true;
+    shape.count = at;
   }
   end(): void {
-    this.mesh.visible = this.count > 0;
-    this.mesh.geometry.setDrawRange(0, 3 * FACES.length * this.count);
-    if (this.count === 0) return;
-    for (const changed of this.repainted ? [this.positions, this.colours] : [this.positions]) {
-      changed.clearUpdateRanges();
-      changed.addUpdateRange(0, NUMBERS * this.count);
-      changed.needsUpdate = true;
-    }
+    this.shape.end();
   }
 }

@@ -6,25 +6,27 @@
 
 import * as THREE from 'three';
 
-import { Birds } from './birds';
+import { Birds, type Sight } from './birds';
 import { colourOf, ground } from './colours';
-import { rowsOf, type TrajectoryRows } from './frames';
+import { rowOf, rowsOf, type TrajectoryRows } from './frames';
+import { drawsInSoftware } from './graphics';
 import { centreOf, poseAt } from './lens';
-import { Lines } from './lines';
+import { Discs, Lines } from './lines';
 import type { Run } from './run';
 import { Space } from './space';
 import { isShown } from './state';
 
-const MOST_VERTICES = 240000;
 const MORE = 4000; // animals that may turn up in frames that were not looked at
+const MOST_LINES = 120000; // of all trails
+const MOST_IN_SOFTWARE = 16000; // of all trails, where the processor draws them
 
 export class FlightView {
   readonly space: Space;
   private birds: Birds;
   private ghosts: Birds;
-  private trails = new Lines(MOST_VERTICES, 0.7);
-  private bars = new Lines(40000, 0.85);
-  private ring: THREE.Mesh;
+  private trails = new Lines(MOST_LINES, 0.7);
+  private bars = new Lines(20000, 0.85);
+  private ring = new Discs(1, 1);
   private seen = new Int32Array(0); // of each animal: the frame of its trail's end, and where
   private place = new Float32Array(0);
   readonly wingspan: number;
@@ -43,12 +45,8 @@ export class FlightView {
     const most = run.animals.length + MORE;
     this.birds = new Birds(most);
     this.ghosts = new Birds(most, 0.35);
-    this.ring = new THREE.Mesh(
-      new THREE.TorusGeometry(1, 0.06, 8, 40),
-      new THREE.MeshBasicMaterial({ color: 0xffb000 }),
-    );
-    this.space.world.add(this.birds.mesh, this.ghosts.mesh, this.trails.object, this.bars.object,
-      this.ring);
+    this.space.show(this.birds.shape, this.ring.shape, this.bars.shape, this.trails.shape,
+      this.ghosts.shape);
     const paint = () => this.space.paint(store.get().dark, store.get().grid);
     paint();
     store.watch((state, before) => {
@@ -72,137 +70,152 @@ export class FlightView {
     return Math.max(this.wingspan, 0.03 * this.space.extent) * this.run.store.get().birdScale;
   }
 
-  private forEach(rows: TrajectoryRows, frame: number, visit: (row: number, animal: number) => void) {
-    const state = this.run.store.get();
-    const [begin, end] = rowsOf(rows, frame);
-    for (let r = begin; r < end; r++) {
-      if (isShown(state, rows.animal[r])) visit(r, rows.animal[r]);
-    }
-  }
-
   draw(): void {
     const { run, space } = this;
-    const state = run.store.get();
-    const { frame } = state;
+    const { frame } = run.store.get();
     const rows = run.flock().ahead(frame);
+    this.follow(rows, frame);
     space.aim(frame);
-    const q = new THREE.Quaternion();
-    this.birds.begin();
-    this.bars.begin();
-    this.ring.visible = false;
-    const size = this.birdSize;
-    const pose = run.session.camera ? poseAt(run.session.camera, frame) : null;
-    const eye = pose ? centreOf(pose) : null;
-    if (rows) {
-      this.forEach(rows, frame, (r, animal) => {
-        const [x, y, z] = rows.position.subarray(3 * r, 3 * r + 3);
-        const o = rows.orientation;
-        q.set(o[4 * r + 1], o[4 * r + 2], o[4 * r + 3], o[4 * r]).normalize();
-        const chosen = animal === state.selected || animal === state.second;
-        const grow = chosen ? 1.5 : animal === state.hovered ? 1.3 : 1;
-        this.birds.add(x, y, z, q, size * grow, colourOf(animal, state.dark));
-        if (chosen && animal === state.selected) {
-          this.ring.visible = true;
-          this.ring.position.set(x, y, z);
-          this.ring.scale.setScalar(0.85 * size);
-          this.ring.quaternion.copy(space.camera.quaternion);
-          if (!(run.session.camera?.gravity ?? true)) {
-            this.ring.quaternion.premultiply(
-              new THREE.Quaternion().setFromRotationMatrix(space.world.matrixWorld).invert());
-          }
-          if (state.view === 'follow') {
-            const at = space.toScene(new THREE.Vector3(x, y, z));
-            const v = new THREE.Vector3(...rows.velocity.subarray(3 * r, 3 * r + 3));
-            const along = v.transformDirection(space.world.matrixWorld);
-            space.follow(at, along, size);
-          }
-        }
-        const sd = rows.sd[r];
-        if (state.bars && eye && sd > 0) {
-          const d = [x - eye[0], y - eye[1], z - eye[2]];
-          const far = Math.hypot(...d);
-          const k = Math.min(sd / Math.max(far, 1e-9), 0.9);
-          this.bars.add(x - k * d[0], y - k * d[1], z - k * d[2], x + k * d[0], y + k * d[1],
-            z + k * d[2], colourOf(animal, state.dark));
-        }
-      });
-    }
-    this.birds.end();
-    this.bars.end();
+    const sight = space.sight();
+    this.drawBirds(rows, frame, sight);
+    this.drawBars(rows, frame);
+    this.drawRing(rows, frame);
     this.drawTrails(frame);
-    this.drawGhosts(frame, q, size);
+    this.drawGhosts(frame, sight);
     space.render();
     space.canvas.dataset.frame = rows ? String(frame) : '';
   }
 
-  private drawTrails(frame: number): void {
+  private follow(rows: TrajectoryRows | undefined, frame: number): void {
+    const { selected, view } = this.run.store.get();
+    const r = rows && view === 'follow' ? rowOf(rows, frame, selected) : -1;
+    if (!rows || r < 0) return;
+    const at = this.space.toScene(placeOf(rows, r));
+    const along = new THREE.Vector3().fromArray(rows.velocity, 3 * r);
+    this.space.follow(at, along.transformDirection(this.space.world), this.birdSize);
+  }
+
+  private drawBirds(rows: TrajectoryRows | undefined, frame: number, sight: Sight): void {
     const state = this.run.store.get();
-    this.trails.begin();
-    const animals = this.run.animals.length;
+    const size = this.birdSize;
+    const [begin, end] = rows ? rowsOf(rows, frame) : [0, 0];
+    this.birds.begin(sight, end - begin, size);
+    for (let r = begin; rows && r < end; r++) {
+      const animal = rows.animal[r];
+      if (!isShown(state, animal)) continue;
+      const chosen = animal === state.selected || animal === state.second;
+      const grow = chosen ? 1.5 : animal === state.hovered ? 1.3 : 1;
+      const { position: p, orientation: q } = rows;
+      this.birds.add(p[3 * r], p[3 * r + 1], p[3 * r + 2], q[4 * r], q[4 * r + 1], q[4 * r + 2],
+        q[4 * r + 3], size * grow, colourOf(animal, state.dark));
+    }
+    this.birds.end();
+  }
+
+  // One standard deviation of depth to both sides, along the line of sight.
+  private drawBars(rows: TrajectoryRows | undefined, frame: number): void {
+    const state = this.run.store.get();
+    const { camera } = this.run.session;
+    this.bars.begin();
+    if (rows && camera && state.bars) {
+      const [ex, ey, ez] = centreOf(poseAt(camera, frame));
+      const [begin, end] = rowsOf(rows, frame);
+      for (let r = begin; r < end; r++) {
+        if (!isShown(state, rows.animal[r]) || !(rows.sd[r] > 0)) continue;
+        const [x, y, z] = [rows.position[3 * r], rows.position[3 * r + 1], rows.position[3 * r + 2]];
+        const [dx, dy, dz] = [x - ex, y - ey, z - ez];
+        const k = Math.min(rows.sd[r] / Math.max(Math.hypot(dx, dy, dz), 1e-9), 0.9);
+        this.bars.add(x - k * dx, y - k * dy, z - k * dz, x + k * dx, y + k * dy, z + k * dz,
+          colourOf(rows.animal[r], state.dark));
+      }
+    }
+    this.bars.end();
+  }
+
+  private drawRing(rows: TrajectoryRows | undefined, frame: number): void {
+    const { space, ring } = this;
+    const { selected } = this.run.store.get();
+    const r = rows ? rowOf(rows, frame, selected) : -1;
+    ring.begin();
+    if (rows && r >= 0 && isShown(this.run.store.get(), selected)) {
+      const [right, up] = space.facing();
+      ring.add(placeOf(rows, r), right, up, 0.8 * this.birdSize, 0.9 * this.birdSize, '#ffb000');
+    }
+    ring.end();
+  }
+
+  // Through the frames that are multiples of a stride, so that a trail stays where it is while the
+  // flock moves on: a large flock's have few points each.
+  private drawTrails(frame: number): void {
+    const { run, trails } = this;
+    const state = run.store.get();
+    const animals = Math.max(run.animals.length, 1);
+    const shown = state.solo && state.selected >= 0 ? 2 : animals;
+    const most = (drawsInSoftware() ? MOST_IN_SOFTWARE : MOST_LINES) / shown;
+    const stride = Math.max(Math.ceil(state.trails / Math.max(most - 1, 1)), 1);
     if (this.seen.length < animals) {
       this.seen = new Int32Array(2 * animals);
       this.place = new Float32Array(6 * animals);
     }
-    const flock = this.run.flock();
     const { seen, place } = this;
     seen.fill(-1000);
-    const budget = Math.floor(MOST_VERTICES / 2 / Math.max(this.run.animals.length, 1));
-    const length = Math.min(state.trails, budget);
-    for (let f = frame - length; f <= frame && length > 0; f++) {
-      const rows = flock.near(Math.max(f, this.run.clock.first));
+    trails.begin();
+    const first = Math.max(frame - state.trails, run.clock.first);
+    for (let f = first; f <= frame && state.trails > 0; f++) {
+      if (f !== first && f !== frame && f % stride !== 0) continue;
+      const rows = run.flock().near(f);
       if (!rows) continue;
-      const { position } = rows;
-      this.forEach(rows, f, (r, animal) => {
-        if (animal >= seen.length) return;
+      const { position, animal } = rows;
+      const [begin, end] = rowsOf(rows, f);
+      for (let r = begin; r < end; r++) {
+        const a = animal[r];
+        if (a >= seen.length || !isShown(state, a)) continue;
         const [x, y, z] = [position[3 * r], position[3 * r + 1], position[3 * r + 2]];
-        const at = 3 * animal;
-        if (f - seen[animal] <= 4) {
-          this.trails.add(place[at], place[at + 1], place[at + 2], x, y, z,
-            colourOf(animal, state.dark));
+        if (f - seen[a] <= stride + 3) {
+          trails.add(place[3 * a], place[3 * a + 1], place[3 * a + 2], x, y, z, colourOf(a, state.dark));
         }
-        seen[animal] = f;
-        place[at] = x;
-        place[at + 1] = y;
-        place[at + 2] = z;
-      });
+        seen[a] = f;
+        place[3 * a] = x;
+        place[3 * a + 1] = y;
+        place[3 * a + 2] = z;
+      }
     }
-    this.trails.end();
+    trails.end();
   }
 
-  private drawGhosts(frame: number, q: THREE.Quaternion, size: number): void {
-    const state = this.run.store.get();
-    this.ghosts.begin();
-    const other =
-      state.ghost === 'truth' ? this.run.truth : state.ghost === 'before' ? this.run.before : null;
+  private drawGhosts(frame: number, sight: Sight): void {
+    const { store, truth, before } = this.run;
+    const state = store.get();
+    const other = state.ghost === 'truth' ? truth : state.ghost === 'before' ? before : null;
     const rows = other?.ahead(frame);
-    if (rows) {
-      const [begin, end] = rowsOf(rows, frame);
-      for (let r = begin; r < end; r++) {
-        const o = rows.orientation;
-        q.set(o[4 * r + 1], o[4 * r + 2], o[4 * r + 3], o[4 * r]).normalize();
-        const [x, y, z] = rows.position.subarray(3 * r, 3 * r + 3);
-        this.ghosts.add(x, y, z, q, size, ground(state.dark).ghost);
-      }
+    const [begin, end] = rows ? rowsOf(rows, frame) : [0, 0];
+    this.ghosts.begin(sight, end - begin, this.birdSize);
+    for (let r = begin; rows && r < end; r++) {
+      const { position: p, orientation: q } = rows;
+      this.ghosts.add(p[3 * r], p[3 * r + 1], p[3 * r + 2], q[4 * r], q[4 * r + 1], q[4 * r + 2],
+        q[4 * r + 3], this.birdSize, ground(state.dark).ghost);
     }
     this.ghosts.end();
   }
 
   private animalAt(x: number, y: number): number {
-    const { frame } = this.run.store.get();
-    const rows = this.run.flock().at(frame);
+    const state = this.run.store.get();
+    const rows = this.run.flock().at(state.frame);
     let best = -1;
     let least = 18; // CSS px
-    if (rows) {
-      this.forEach(rows, frame, (r, animal) => {
-        const [a, b, c] = rows.position.subarray(3 * r, 3 * r + 3);
-        const p = this.space.onCanvas(a, b, c);
-        const far = p ? Math.hypot(p[0] - x, p[1] - y) : Infinity;
-        if (far < least) {
-          least = far;
-          best = animal;
-        }
-      });
+    const [begin, end] = rows ? rowsOf(rows, state.frame) : [0, 0];
+    for (let r = begin; rows && r < end; r++) {
+      if (!isShown(state, rows.animal[r])) continue;
+      const p = this.space.onCanvas(...placeOf(rows, r).toArray());
+      const far = p ? Math.hypot(p[0] - x, p[1] - y) : Infinity;
+      if (far < least) {
+        least = far;
+        best = rows.animal[r];
+      }
     }
     return best;
   }
 }
+
+const placeOf = (rows: TrajectoryRows, r: number): THREE.Vector3 =>
+  new THREE.Vector3().fromArray(rows.position, 3 * r);

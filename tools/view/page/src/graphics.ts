@@ -1,36 +1,31 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the browser can draw with.
+// What the browser can draw with: asked once, for asking takes a while.
 
-export function hasWebGL(): boolean {
-  try {
-    const canvas = document.createElement('canvas');
-    return canvas.getContext('webgl2') !== null;
-  } catch {
-    return false;
-  }
+interface Means {
+  webgl: boolean;
+  software: boolean;
 }
+let means: Means | undefined;
 
-let software: boolean | undefined;
-
-// Whether the processor draws, for want of a graphics card: then every sample of a pixel is dear.
-export function drawsInSoftware(): boolean {
-  software ??= findSoftware();
-  return software;
-}
-
-function findSoftware(): boolean {
+function find(): Means {
   try {
     const gl = document.createElement('canvas').getContext('webgl2');
-    const names = gl?.getExtension('WEBGL_debug_renderer_info');
-    const name = gl && names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
-    gl?.getExtension('WEBGL_lose_context')?.loseContext();
-    return /swiftshader|llvmpipe|software/i.test(name);
+    if (!gl) return { webgl: false, software: false };
+    const names = gl.getExtension('WEBGL_debug_renderer_info');
+    const name = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
+    gl.getExtension('WEBGL_lose_context')?.loseContext();
+    return { webgl: true, software: /swiftshader|llvmpipe|software/i.test(name) };
   } catch {
-    return false;
+    return { webgl: false, software: false };
   }
 }
+
+export const hasWebGL = (): boolean => (means ??= find()).webgl;
+
+// Whether the processor draws, for want of a graphics card: then every sample of a pixel is dear.
+export const drawsInSoftware = (): boolean => (means ??= find()).software;
 
 // The context of a flat picture. Without a graphics card it is kept in plain memory: a thousand
 // lines take the browser's own emulation of a card seconds.

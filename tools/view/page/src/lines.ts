@@ -1,63 +1,59 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Many short lines in one drawing, filled anew for each frame.
+// Many short lines, and discs that face the viewer.
 
 import * as THREE from 'three';
 
+import { Shape, packed } from './shape';
+
 export class Lines {
-  readonly object: THREE.LineSegments;
-  private positions: Float32Array;
-  private colours: Float32Array;
-  private count = 0; // vertices
-  private known = new Map<string, THREE.Color>(); // what a colour's name is in numbers
+  readonly shape: Shape;
 
-  constructor(
-    private most: number, // vertices
-    opacity: number,
-  ) {
-    this.positions = new Float32Array(3 * most);
-    this.colours = new Float32Array(3 * most);
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(this.positions, 3));
-    geometry.setAttribute('color', new THREE.BufferAttribute(this.colours, 3));
-    this.object = new THREE.LineSegments(
-      geometry,
-      new THREE.LineBasicMaterial({ vertexColors: true, transparent: opacity < 1, opacity }),
-    );
-    this.object.frustumCulled = false;
+  constructor(most: number, opacity: number) {
+    this.shape = new Shape('lines', 2 * most, opacity);
   }
-
   begin(): void {
-    this.count = 0;
-  }
-  add(ax: number, ay: number, az: number, bx: number, by: number, bz: number, colour: string): void {
-    if (this.count + 2 > this.most) return;
-    let shade = this.known.get(colour);
-    if (!shade) this.known.set(colour, (shade = new THREE.Color(colour)));
-    const { positions, colours } = this;
-    const at = 3 * this.count;
-    positions[at] = ax;
-    positions[at + 1] = ay;
-    positions[at + 2] = az;
-    positions[at + 3] = bx;
-    positions[at + 4] = by;
-    positions[at + 5] = bz;
-    colours[at] = colours[at + 3] = shade.r;
-    colours[at + 1] = colours[at + 4] = shade.g;
-    colours[at + 2] = colours[at + 5] = shade.b;
-    this.count += 2;
+    this.shape.begin();
   }
   end(): void {
-    const { geometry } = this.object;
-    geometry.setDrawRange(0, this.count);
-    this.object.visible = this.count > 0;
-    if (this.count === 0) return;
-    for (const name of ['position', 'color']) {
-      const attribute = geometry.attributes[name] as THREE.BufferAttribute;
-      attribute.clearUpdateRanges();
-      attribute.addUpdateRange(0, 3 * this.count);
-      attribute.needsUpdate = true;
+    this.shape.end();
+  }
+  add(ax: number, ay: number, az: number, bx: number, by: number, bz: number, colour: string): void {
+    if (this.shape.room < 2) return;
+    const ink = packed(colour);
+    this.shape.add(ax, ay, az, ink);
+    this.shape.add(bx, by, bz, ink);
+  }
+}
+
+const CORNERS = 40; // of a disc's edge
+
+export class Discs {
+  readonly shape: Shape;
+
+  constructor(most: number, opacity: number) {
+    this.shape = new Shape('triangles', 6 * CORNERS * most, opacity);
+  }
+  begin(): void {
+    this.shape.begin();
+  }
+  end(): void {
+    this.shape.end();
+  }
+  // Between two radii, in the plane of `right` and `up`, which are unit lengths at right angles.
+  add(centre: THREE.Vector3, right: THREE.Vector3, up: THREE.Vector3, inner: number, outer: number,
+    colour: string): void {
+    if (this.shape.room < 6 * CORNERS) return;
+    const ink = packed(colour);
+    const corner = (k: number, radius: number) => {
+      const [c, s] = [radius * Math.cos((2 * Math.PI * k) / CORNERS), radius * Math.sin((2 * Math.PI * k) / CORNERS)];
+      this.shape.add(centre.x + c * right.x + s * up.x, centre.y + c * right.y + s * up.y,
+        centre.z + c * right.z + s * up.z, ink);
+    };
+    for (let k = 0; k < CORNERS; k++) {
+      corner(k, inner), corner(k, outer), corner(k + 1, outer);
+      corner(k, inner), corner(k + 1, outer), corner(k + 1, inner);
     }
   }
 }

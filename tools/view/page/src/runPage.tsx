@@ -139,6 +139,7 @@ export function RunPage({ run }: { run: Run }) {
     if (space.current && webgl) {
       const view = new FlightView(space.current, run);
       setScale(`grid ${view.space.gridStep} m`);
+      Object.assign((window as unknown as {flocklift: object}).flocklift, {flight: view});
     }
     if (!session.exported && session.has.boxes) {
       run.askSuspects().catch((error: unknown) => store.fail(error));

@@ -7,9 +7,14 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
+import type { Sight } from './birds';
 import { ground } from './colours';
+import { GlPainter } from './glPainter';
 import { drawsInSoftware } from './graphics';
 import { centreOf, poseAt } from './lens';
+import { Lines } from './lines';
+import type { Painter, Shape } from './shape';
+import { SoftPainter } from './softPainter';
 import type { ViewName } from './state';
 import type { Bounds, CameraInfo } from './types';
 
@@ -21,17 +26,19 @@ export function roundLength(length: number): number {
 }
 
 export class Space {
-  readonly scene = new THREE.Scene();
-  readonly world = new THREE.Group(); // what is in the world frame
+  readonly world = new THREE.Matrix4(); // scene from world
   readonly camera = new THREE.PerspectiveCamera(45, 1, 0.05, 20000);
-  readonly renderer: THREE.WebGLRenderer;
   readonly controls: OrbitControls;
   readonly centre = new THREE.Vector3(); // of the flock, in the world frame
   extent = 10; // [m]
   gridStep = 1; // [m]
-  private grid: THREE.GridHelper | null = null;
-  private frustum: THREE.LineSegments | null = null;
+  private grid: Lines | null = null;
+  private frustum: Lines | null = null;
+  private sun = new THREE.Vector3(0.4, -0.6, 1).normalize(); // towards it
   private view: ViewName = 'orbit';
+  private back = '#000000';
+  private painter: Painter;
+  private shapes: Shape[] = []; // in the world
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -40,19 +47,10 @@ export class Space {
     upIsUp: boolean,
     private redraw: () => void,
   ) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !drawsInSoftware() });
+    this.painter = drawsInSoftware() ? new SoftPainter(canvas) : new GlPainter(canvas);
     this.camera.up.set(0, 0, 1);
-    if (!upIsUp) {
-      // x right, y down, z forward  ->  x right, y forward, z up
-      this.world.matrixAutoUpdate = false;
-      this.world.matrix.set(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
-      this.world.matrixWorldNeedsUpdate = true; // before it is first drawn, too
-    }
-    this.scene.add(this.world);
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8899aa, 2.2));
-    const sun = new THREE.DirectionalLight(0xffffff, 1.2);
-    sun.position.set(0.4, -0.6, 1);
-    this.scene.add(sun);
+    // x right, y down, z forward  ->  x right, y forward, z up
+    if (!upIsUp) this.world.set(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
     if (bounds) {
       const low = new THREE.Vector3().fromArray(bounds.low);
       const high = new THREE.Vector3().fromArray(bounds.high);
@@ -67,42 +65,54 @@ export class Space {
   }
 
   toScene(v: THREE.Vector3): THREE.Vector3 {
-    this.world.updateMatrixWorld();
-    return v.applyMatrix4(this.world.matrixWorld);
+    return v.applyMatrix4(this.world);
+  }
+  // Shapes that are in the world frame, drawn in this order.
+  show(...shapes: Shape[]): void {
+    this.shapes.push(...shapes);
   }
 
   paint(dark: boolean, showGrid: boolean): void {
     const colours = ground(dark);
-    this.scene.background = new THREE.Color(colours.back);
-    this.grid?.removeFromParent();
+    this.back = colours.back;
     this.gridStep = roundLength(this.extent / 12);
-    const size = this.gridStep * 2 * Math.ceil((1.6 * this.extent) / this.gridStep / 2);
-    this.grid = new THREE.GridHelper(size, size / this.gridStep, colours.ink, colours.grid);
-    this.grid.rotation.x = Math.PI / 2;
-    const middle = this.toScene(this.centre.clone());
-    const snap = (x: number) => Math.round(x / this.gridStep) * this.gridStep;
-    const floor = Math.min(0, middle.z - this.extent / 2);
-    this.grid.position.set(snap(middle.x), snap(middle.y), snap(floor));
-    this.grid.visible = showGrid;
-    this.scene.add(this.grid);
-    this.frustum?.removeFromParent();
+    this.grid = this.makeGrid(colours.ink, colours.grid);
+    this.grid.shape.visible = showGrid;
     this.frustum = this.film ? this.makeFrustum(this.film, colours.ink) : null;
-    if (this.frustum) this.world.add(this.frustum);
   }
 
-  private makeFrustum(film: CameraInfo, colour: string): THREE.LineSegments {
+  // Level lines below the flock, the two in the middle darker.
+  private makeGrid(middle: string, other: string): Lines {
+    const step = this.gridStep;
+    const half = Math.ceil((1.6 * this.extent) / step / 2);
+    const lines = new Lines(4 * half + 2, 1);
+    const reach = half * step;
+    lines.begin();
+    for (let k = -half; k <= half; k++) {
+      const colour = k === 0 ? middle : other;
+      lines.add(k * step, -reach, 0, k * step, reach, 0, colour);
+      lines.add(-reach, k * step, 0, reach, k * step, 0, colour);
+    }
+    lines.end();
+    const centre = this.toScene(this.centre.clone());
+    const snap = (x: number) => Math.round(x / step) * step;
+    lines.shape.matrix.makeTranslation(snap(centre.x), snap(centre.y),
+      snap(Math.min(0, centre.z - this.extent / 2)));
+    return lines;
+  }
+
+  private makeFrustum(film: CameraInfo, colour: string): Lines {
     const d = 0.12 * this.extent;
-    const corner = (u: number, v: number) =>
-      new THREE.Vector3(((u - film.cx) / film.fx) * d, ((v - film.cy) / film.fy) * d, d);
+    const corner = (u: number, v: number): [number, number, number] =>
+      [((u - film.cx) / film.fx) * d, ((v - film.cy) / film.fy) * d, d];
     const c = [corner(0, 0), corner(film.width, 0), corner(film.width, film.height), corner(0, film.height)];
-    const o = new THREE.Vector3();
-    const points = [o, c[0], o, c[1], o, c[2], o, c[3], c[0], c[1], c[1], c[2], c[2], c[3], c[3], c[0]];
-    const lines = new THREE.LineSegments(
-      new THREE.BufferGeometry().setFromPoints(points),
-      new THREE.LineBasicMaterial({ color: colour }),
-    );
-    lines.frustumCulled = false;
-    lines.matrixAutoUpdate = false;
+    const lines = new Lines(8, 1);
+    lines.begin();
+    for (let k = 0; k < 4; k++) {
+      lines.add(0, 0, 0, ...c[k], colour);
+      lines.add(...c[k], ...c[(k + 1) % 4], colour);
+    }
+    lines.end();
     return lines;
   }
 
@@ -161,22 +171,45 @@ export class Space {
     camera.near = this.extent / 2000;
     camera.far = 60 * this.extent;
     if (this.frustum) {
-      this.frustum.matrix.copy(this.worldFromFilm(frame));
-      this.frustum.visible = this.view !== 'camera';
+      this.frustum.shape.matrix.copy(this.worldFromFilm(frame));
+      this.frustum.shape.visible = this.view !== 'camera';
     }
     if (this.view === 'camera' && this.film) this.placeAtFilm(frame);
     else camera.updateProjectionMatrix();
   }
 
+  // How the flock is seen and lit, in the world frame; after aim().
+  sight(): Sight {
+    const inverse = this.world.clone().invert();
+    const away = this.camera.position.distanceTo(this.toScene(this.centre.clone()));
+    const focal = (this.camera.projectionMatrix.elements[5] * this.canvas.clientHeight) / 2;
+    return {
+      eye: this.camera.position.clone().applyMatrix4(inverse),
+      up: new THREE.Vector3(0, 0, 1).transformDirection(inverse),
+      sun: this.sun.clone().transformDirection(inverse),
+      pixels: focal / Math.max(away, 1e-6),
+    };
+  }
+
+  // Right and up of who looks, in the world frame.
+  facing(): [THREE.Vector3, THREE.Vector3] {
+    this.camera.updateMatrixWorld();
+    const inverse = this.world.clone().invert();
+    const axis = (k: number) =>
+      new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, k).transformDirection(inverse);
+    return [axis(0), axis(1)];
+  }
+
   render(): void {
-    const { canvas, renderer } = this;
-    const width = canvas.clientWidth;
-    const height = canvas.clientHeight;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    const size = renderer.getSize(new THREE.Vector2());
-    renderer.setPixelRatio(Math.min(devicePixelRatio, drawsInSoftware() ? 1 : 2));
-    if (size.x !== width || size.y !== height) renderer.setSize(width, height, false);
-    renderer.render(this.scene, this.camera);
+    const shapes = this.shapes.map((shape) => ({ shape, matrix: this.world.clone().multiply(shape.matrix) }));
+    if (this.frustum) {
+      shapes.push({ shape: this.frustum.shape, matrix: this.world.clone().multiply(this.frustum.shape.matrix) });
+    }
+    if (this.grid) shapes.push({ shape: this.grid.shape, matrix: this.grid.shape.matrix });
+    const ratio = Math.min(devicePixelRatio, drawsInSoftware() ? 1 : 2);
+    this.painter.paint(shapes, this.camera, this.back, width, height, ratio);
   }
 
   // The film's own view: its pose, and its intrinsics as the projection, letter-boxed.
@@ -184,7 +217,7 @@ export class Space {
     const film = this.film as CameraInfo;
     const { camera } = this;
     const flip = new THREE.Matrix4().makeScale(1, -1, -1); // OpenCV's axes to OpenGL's
-    const pose = this.world.matrixWorld.clone().multiply(this.worldFromFilm(frame)).multiply(flip);
+    const pose = this.world.clone().multiply(this.worldFromFilm(frame)).multiply(flip);
     pose.decompose(camera.position, camera.quaternion, camera.scale);
     const aspect = camera.aspect;
     const w = Math.max(film.width, film.height * aspect);
@@ -212,8 +245,7 @@ export class Space {
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(normal, through);
     const hit = ray.ray.intersectPlane(plane, new THREE.Vector3());
     if (!hit) return null;
-    this.world.updateMatrixWorld();
-    return hit.applyMatrix4(this.world.matrixWorld.clone().invert());
+    return hit.applyMatrix4(this.world.clone().invert());
   }
 
   // Where a point of the world is on the canvas [CSS px].

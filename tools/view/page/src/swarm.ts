@@ -6,10 +6,11 @@
 
 import * as THREE from 'three';
 
-import { Birds } from './birds';
+import { Birds, type Sight } from './birds';
 import { colourOf, ground } from './colours';
 import type { Look } from './live';
-import { Lines } from './lines';
+import { Discs, Lines } from './lines';
+import { Shape, shadeOf, shadesOf } from './shape';
 import { Space } from './space';
 import type { Store } from './state';
 import type { SceneSession } from './types';
@@ -25,13 +26,14 @@ export class SwarmView {
   readonly space: Space;
   look: Look | null = null;
   private birds: Birds;
-  private trails = new Lines(200000, 0.55);
-  private goals: THREE.Mesh[] = [];
-  private box: THREE.Object3D | null = null;
+  private trails = new Lines(100000, 0.55);
+  private goals = new Discs(64, 0.4);
+  private fixed: Shape[] = []; // obstacles
+  private box = new Lines(12, 0.5);
   private dirty = true;
   private past: Float32Array[] = [];
   private stroke: THREE.Vector3[] | null = null;
-  private strokeLine = new Lines(4000, 1);
+  private strokeLine = new Lines(2000, 1);
   private species: number[] = []; // of each animal
   private sizes: number[] = [];
 
@@ -53,8 +55,11 @@ export class SwarmView {
       this.sizes.push(1.6 * (this.sizes[0] ?? 1));
     }
     this.birds = new Birds(this.species.length);
-    this.space.world.add(this.birds.mesh, this.trails.object, this.strokeLine.object);
-    this.addObstacles();
+    for (const { vertices, triangles } of session.obstacles) {
+      this.fixed.push(obstacle(vertices, triangles, this.space.sight()));
+    }
+    this.space.show(this.birds.shape, this.trails.shape, ...this.fixed, this.box.shape,
+      this.goals.shape, this.strokeLine.shape);
     const paint = () => {
       this.space.paint(store.get().dark, store.get().grid);
       this.paintBox();
@@ -83,27 +88,17 @@ export class SwarmView {
     this.dirty = true;
   }
 
-  private addObstacles(): void {
-    for (const { vertices, triangles } of this.session.obstacles) {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute('position', new THREE.Float32BufferAttribute(vertices, 3));
-      geometry.setIndex(triangles);
-      geometry.computeVertexNormals();
-      this.space.world.add(new THREE.Mesh(geometry,
-        new THREE.MeshLambertMaterial({ color: 0x8f99a6, transparent: true, opacity: 0.55,
-          side: THREE.DoubleSide, flatShading: true })));
-    }
-  }
   private paintBox(): void {
-    this.box?.removeFromParent();
     const { low, high } = this.session.bounds;
-    const size = high.map((h, k) => h - low[k]);
-    if (!size.every(Number.isFinite)) return;
-    const edges = new THREE.EdgesGeometry(new THREE.BoxGeometry(size[0], size[1], Math.max(size[2], 1e-3)));
-    this.box = new THREE.LineSegments(edges,
-      new THREE.LineBasicMaterial({ color: ground(this.store.get().dark).ink, transparent: true, opacity: 0.5 }));
-    this.box.position.set(low[0] + size[0] / 2, low[1] + size[1] / 2, low[2] + size[2] / 2);
-    this.space.world.add(this.box);
+    if (![...low, ...high].every(Number.isFinite)) return;
+    const colour = ground(this.store.get().dark).ink;
+    const corner = (k: number) => [0, 1, 2].map((axis) => ((k >> axis) & 1 ? high : low)[axis]) as
+      [number, number, number];
+    this.box.begin();
+    for (let k = 0; k < 8; k++) {
+      for (const bit of [1, 2, 4]) if (!(k & bit)) this.box.add(...corner(k), ...corner(k | bit), colour);
+    }
+    this.box.end();
   }
 
   private colourOfAnimal(k: number, dark: boolean): string {
@@ -117,29 +112,10 @@ export class SwarmView {
 
   private draw(): void {
     this.dirty = false;
-    const state = this.store.get();
     const { look } = this;
+    this.space.aim(1);
     if (look) {
-      const x = new THREE.Vector3(1, 0, 0);
-      const m = new THREE.Matrix4();
-      const q = new THREE.Quaternion();
-      const ahead = new THREE.Vector3();
-      const side = new THREE.Vector3();
-      const up = new THREE.Vector3();
-      this.birds.begin();
-      for (let k = 0; k < look.agents; k++) {
-        const v = look.velocity;
-        ahead.set(v[3 * k], v[3 * k + 1], v[3 * k + 2]).normalize();
-        if (ahead.lengthSq() < 0.5) ahead.copy(x);
-        side.set(-ahead.y, ahead.x, 0).normalize();
-        if (side.lengthSq() < 0.5) side.set(0, 1, 0);
-        up.crossVectors(ahead, side);
-        q.setFromRotationMatrix(m.makeBasis(ahead, side, up));
-        const p = look.position;
-        this.birds.add(p[3 * k], p[3 * k + 1], p[3 * k + 2], q, this.sizeOf(k),
-          this.colourOfAnimal(k, state.dark));
-      }
-      this.birds.end();
+      this.drawAnimals(look);
       this.drawTrails(look);
       this.drawGoals(look);
       this.space.canvas.dataset.time = look.time.toFixed(3);
@@ -151,8 +127,23 @@ export class SwarmView {
       this.strokeLine.add(a.x, a.y, a.z, b.x, b.y, b.z, '#e6820a');
     }
     this.strokeLine.end();
-    this.space.aim(1);
     this.space.render();
+  }
+
+  // Each flies level along its velocity.
+  private drawAnimals(look: Look): void {
+    const { position: p, velocity: v } = look;
+    const { dark } = this.store.get();
+    this.birds.begin(this.space.sight(), look.agents, this.sizeOf(0));
+    for (let k = 0; k < look.agents; k++) {
+      const [x, y, z] = [v[3 * k], v[3 * k + 1], v[3 * k + 2]];
+      const yaw = Math.atan2(y, x) / 2;
+      const pitch = -Math.atan2(z, Math.hypot(x, y)) / 2;
+      const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
+      this.birds.add(p[3 * k], p[3 * k + 1], p[3 * k + 2], cy * cp, -sy * sp, cy * sp, sy * cp,
+        this.sizeOf(k), this.colourOfAnimal(k, dark));
+    }
+    this.birds.end();
   }
 
   private drawTrails(look: Look): void {
@@ -172,17 +163,13 @@ export class SwarmView {
   }
 
   private drawGoals(look: Look): void {
-    const count = look.goals.length / 3;
-    while (this.goals.length > count) this.goals.pop()?.removeFromParent();
-    while (this.goals.length < count) {
-      const reach = this.session.goals[this.goals.length]?.reach ?? 0;
-      const mesh = new THREE.Mesh(
-        new THREE.SphereGeometry(Math.max(reach, 0.015 * this.space.extent), 20, 14),
-        new THREE.MeshBasicMaterial({ color: 0xf0b429, transparent: true, opacity: 0.4 }));
-      this.goals.push(mesh);
-      this.space.world.add(mesh);
+    const [right, up] = this.space.facing();
+    this.goals.begin();
+    for (let k = 0; k < look.goals.length / 3; k++) {
+      const reach = Math.max(this.session.goals[k]?.reach ?? 0, 0.015 * this.space.extent);
+      this.goals.add(new THREE.Vector3().fromArray(look.goals, 3 * k), right, up, 0, reach, '#f0b429');
     }
-    this.goals.forEach((goal, k) => goal.position.fromArray(look.goals, 3 * k));
+    this.goals.end();
   }
 
   // The goal or predator at a place of the canvas, if there is one.
@@ -255,4 +242,18 @@ export class SwarmView {
       addEventListener('pointerup', up);
     }, { capture: true });
   }
+}
+
+// A surface that stands still, seen from both sides alike.
+function obstacle(vertices: number[], triangles: number[], { up, sun }: Sight): Shape {
+  const shape = new Shape('triangles', triangles.length, 0.55);
+  const shades = shadesOf('#8f99a6');
+  for (let k = 0; k + 2 < triangles.length; k += 3) {
+    const [a, b, c] = [0, 1, 2].map((n) => new THREE.Vector3().fromArray(vertices, 3 * triangles[k + n]));
+    const normal = b.clone().sub(a).cross(c.clone().sub(a)).normalize();
+    const shade = shades[shadeOf(Math.abs(normal.dot(up)), Math.abs(normal.dot(sun)))];
+    for (const p of [a, b, c]) shape.add(p.x, p.y, p.z, shade);
+  }
+  shape.end();
+  return shape;
 }
