@@ -5,7 +5,7 @@
 
 import type { Store } from './state';
 
-const PATIENCE = 80; // ms that a drawing waits for what it needs
+const PATIENCE = 300; // ms that a drawing waits for what it needs
 
 export class Clock {
   private last = 0;

@@ -4,7 +4,7 @@
 // Windows of rows as the server packs them (tools/view/frame_table.h), and a cache of them: asking
 // for a frame that is not there yet fetches its window and those that will be needed next. Of a
 // large flock a window takes a while: then the frame comes by itself at first, and its window when
-// the person stays near it.
+// the person stays near it, one after the other, so that a frame never waits for many.
 
 import { Refusal } from './api';
 
@@ -66,7 +66,7 @@ export function rowOf(rows: Rows, frame: number, animal: number): number {
 export type Fetch = (first: number, last: number) => Promise<ArrayBuffer>;
 
 const LARGE = 64; // windows of fewer frames are those of a large flock
-const REST = 60; // ms near a place before its windows are fetched
+const REST = 200; // ms near a place before its windows are fetched
 
 export class FrameCache<T extends Rows> {
   private windows = new Map<number, T>(); // by number; in the order of their last use
@@ -136,16 +136,24 @@ export class FrameCache<T extends Rows> {
   }
 
   private want(number: number): void {
-    if (this.windows.has(number) || this.pending.has(number) || this.refused.has(number)) return;
-    // While it plays, the next window is fetched in time; after a jump, when the person stays.
-    if (this.length >= LARGE || this.windows.has(this.place)) return this.fetch(number);
+    if (number < 0 || this.windows.has(number) || this.pending.has(number) || this.refused.has(number)) return;
+    if (this.length >= LARGE) return this.fetch(number);
     this.wanted.add(number);
-    this.timer ||= window.setTimeout(() => {
-      this.timer = 0;
-      this.fetch(this.place);
-      for (const n of this.wanted) this.fetch(n);
-      this.wanted.clear();
-    }, REST);
+    // While it plays, the next window is fetched in time; after a jump, when the person stays.
+    if (this.windows.has(this.place)) this.fetchWanted();
+    else this.timer ||= window.setTimeout(() => this.fetchWanted(), REST);
+  }
+
+  // The window of the place, then those after it, then those before it.
+  private fetchWanted(): void {
+    this.timer = 0;
+    if (this.pending.size > 0) return; // goes on when it has come
+    const order = (n: number) => (n >= this.place ? n - this.place : 1000 + this.place - n);
+    const missing = [this.place, ...this.wanted].filter((n) => !this.windows.has(n) && !this.refused.has(n));
+    const [next] = missing.sort((a, b) => order(a) - order(b));
+    if (next === undefined) return;
+    this.wanted.delete(next);
+    this.fetch(next);
   }
 
   // One frame at a time, the latest that is asked for.
@@ -180,6 +188,7 @@ export class FrameCache<T extends Rows> {
           this.windows.delete(this.windows.keys().next().value as number);
         }
         this.loaded();
+        if (this.length < LARGE && this.windows.has(this.place)) this.fetchWanted();
       })
       .catch((error: unknown) => {
         if (generation !== this.generation) return;

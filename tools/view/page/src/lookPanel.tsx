@@ -36,7 +36,7 @@ function Animal({ run, animal }: { run: Run; animal: number }) {
       onMouseLeave={() => store.set({ hovered: -1 })}>
       <button title="select; with shift: as the second"
         onClick={(e) => store.set(e.shiftKey ? { second: animal } : { selected: animal, second: -1 })}>
-        <svg viewBox="0 0 8 8" class="dot"><circle cx="4" cy="4" r="4" fill={colourOf(animal, dark)} /></svg>
+        <i class="dot" style={{ background: colourOf(animal, dark) }} />
         {run.animals[animal]}
       </button>
       <button class="eye" title="hide or show" aria-label="hide or show" onClick={toggle}>
