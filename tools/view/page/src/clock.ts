@@ -14,6 +14,9 @@ export class Clock {
   private drawers: (() => void)[] = [];
   private needs: (() => boolean)[] = [];
   private waits = 0; // since when [ms]; 0: it does not
+  private haveDrawn: () => void = () => undefined;
+  // Once the first pictures are in sight: what they do not need can wait for them.
+  readonly drawn = new Promise<void>((resolve) => (this.haveDrawn = resolve));
 
   constructor(
     private store: Store,
@@ -77,6 +80,7 @@ export class Clock {
       this.dirty = false;
       this.waits = 0;
       for (const draw of this.drawers) draw();
+      if (this.drawers.length > 0) setTimeout(this.haveDrawn);
     }
     requestAnimationFrame((next) => this.tick(next));
   }

@@ -3,7 +3,7 @@
 //
 // What is drawn, of which flock, and who.
 
-import { useMemo } from 'preact/hooks';
+import { useEffect, useMemo, useState } from 'preact/hooks';
 
 import { colourOf } from './colours';
 import { useNews } from './news';
@@ -11,6 +11,7 @@ import type { Run } from './run';
 import { useParts, useValue, type Ghost } from './state';
 
 const MOST_LISTED = 400; // animals
+const AT_ONCE = 50; // entries of the list that are made in one go
 
 type Switch = 'boxes' | 'ids' | 'bars' | 'grid';
 const SWITCHES: [Switch, string, string][] = [
@@ -52,10 +53,18 @@ export function LookPanel({ run }: { run: Run }) {
     'hidden');
   const animals = useNews(run, () => run.animals);
   const solved = useNews(run, () => run.versions.after > 0);
-  const shown = Math.min(animals.length, MOST_LISTED);
+  const [listed, setListed] = useState(0);
+  const shown = Math.min(animals.length, MOST_LISTED, listed);
+  useEffect(() => {
+    // After the pictures, and bit by bit.
+    if (listed >= Math.min(animals.length, MOST_LISTED)) return undefined;
+    let alive = true;
+    void run.clock.drawn.then(() => setTimeout(() => alive && setListed(listed + AT_ONCE), 20));
+    return () => void (alive = false);
+  }, [listed, animals.length]);
   // Made once, so that they are not looked at again whenever the rest of the panel changes.
-  const list = useMemo(() => Array.from({ length: shown }, (_, k) => <Animal run={run} animal={k} key={k} />),
-    [run, shown]);
+  const list = useMemo(() => Array.from({ length: shown }, (_, k) =>
+    <Animal run={run} animal={k} key={k} />), [run, shown]);
   return (
     <div class="panel-body">
       <section>
@@ -95,7 +104,7 @@ export function LookPanel({ run }: { run: Run }) {
             onClick={() => store.set({ hidden: new Set() })}>show all</button>
         </header>
         <ul>{list}</ul>
-        {shown < animals.length && <p class="muted">and {animals.length - shown} more: click them in the pictures.</p>}
+        {MOST_LISTED < animals.length && <p class="muted">and {animals.length - MOST_LISTED} more: click them in the pictures.</p>}
       </section>
     </div>
   );

@@ -40,6 +40,9 @@ function showRun(source: Source, root: HTMLElement): void {
       reading: (news: Reading) => store.set({ reading: news.text, faults: news.faults }),
     }, (gone) => store.set({ gone }));
   }
+  // What the first pictures need is under way while the page is built.
+  run.flock().at(session.frames.first);
+  if (session.has.boxes) run.boxes.at(session.frames.first);
   render(<RunPage run={run} />, root);
 }
 

@@ -123,10 +123,12 @@ export function RunPage({ run }: { run: Run }) {
   const table = useValue(store, (s) => s.table);
   const reading = useValue(store, (s) => s.reading);
   const webgl = useMemo(hasWebGL, []);
+  const [drawn, setDrawn] = useState(false);
   const hasFlock = session.has.before || run.versions.after > 0;
 
   useEffect(() => {
     listenToKeys(keys);
+    const handle: Record<string, unknown> = { run }; // for tests
     if (film.current) {
       const view = new FootageView(film.current, run);
       view.onPoint = (x, y, animal, second) => {
@@ -134,16 +136,19 @@ export function RunPage({ run }: { run: Run }) {
         store.set(second ? { second: animal } : { selected: animal, second: -1 });
       };
       setFootage(view);
-      Object.assign(window, { flocklift: { run, footage: view } });
+      handle.footage = view;
     }
     if (space.current && webgl) {
       const view = new FlightView(space.current, run);
       setScale(`grid ${view.space.gridStep} m`);
-      Object.assign((window as unknown as {flocklift: object}).flocklift, {flight: view});
+      handle.flight = view;
     }
-    if (!session.exported && session.has.boxes) {
+    Object.assign(window, { flocklift: handle });
+    void run.clock.drawn.then(() => {
+      setDrawn(true);
+      if (session.exported || !session.has.boxes) return;
       run.askSuspects().catch((error: unknown) => store.fail(error));
-    }
+    });
   }, []);
 
   const nothing = !session.has.boxes && !hasFlock && !session.footage;
@@ -182,7 +187,7 @@ export function RunPage({ run }: { run: Run }) {
           {webgl && !hasFlock && <p class="words">{nothing ? 'There is nothing to show yet.' : 'The folder holds no trajectories yet: run `flocklift reconstruct`, or Re-solve here.'}</p>}
         </section>
       </main>
-      <Charts run={run} />
+      {drawn ? <Charts run={run} /> : <div class="charts" />}
       <Transport run={run} />
       {panel && (
         <aside>
