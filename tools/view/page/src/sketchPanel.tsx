@@ -18,8 +18,8 @@ export function SketchPanel({ run, footage }: { run: Run; footage: FootageView }
   const [command, setCommand] = useState('');
   const news = useNews(run, () => run.solve);
   useEffect(() => {
-    footage.onStroke = (points) => {
-      footage.strokes.push({ points });
+    footage.onStroke = (stroke) => {
+      footage.strokes.push(stroke);
       setCount(footage.strokes.length);
     };
     return () => (footage.onStroke = null);
@@ -31,7 +31,7 @@ export function SketchPanel({ run, footage }: { run: Run; footage: FootageView }
   };
   const solve = async () => {
     const { first, end } = run.clock;
-    const strokes = footage.strokes.map(({ points }) => ({
+    const strokes = footage.strokes.map((points) => ({
       first, last: Math.min(first + frames - 1, end), points }));
     try {
       await post('api/sketch', { strokes });
