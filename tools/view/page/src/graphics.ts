@@ -24,8 +24,9 @@ function find(): Means {
 
 export const hasWebGL = (): boolean => (means ??= find()).webgl;
 
-// Whether the processor draws, for want of a graphics card: then every sample of a pixel is dear.
-export const drawsInSoftware = (): boolean => (means ??= find()).software;
+// Whether the processor draws, for want of a graphics card. With #card in the address what there is
+// of a card draws all the same, so that the two ways can be compared.
+export const drawsInSoftware = (): boolean => (means ??= find()).software && location.hash !== '#card';
 
 // The context of a flat picture. Without a graphics card it is kept in plain memory: a thousand
 // lines take the browser's own emulation of a card seconds.

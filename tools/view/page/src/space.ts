@@ -25,6 +25,9 @@ export function roundLength(length: number): number {
   return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
 }
 
+const REST = 250; // ms
+const MANY = 800000; // pixels
+
 export class Space {
   readonly world = new THREE.Matrix4(); // scene from world
   readonly camera = new THREE.PerspectiveCamera(45, 1, 0.05, 20000);
@@ -38,6 +41,9 @@ export class Space {
   private view: ViewName = 'orbit';
   private back = '#000000';
   private painter: Painter;
+  private drawn = 0; // when [ms]
+  private rests = false;
+  private timer = 0;
   private shapes: Shape[] = []; // in the world
 
   constructor(
@@ -208,8 +214,24 @@ export class Space {
       shapes.push({ shape: this.frustum.shape, matrix: this.world.clone().multiply(this.frustum.shape.matrix) });
     }
     if (this.grid) shapes.push({ shape: this.grid.shape, matrix: this.grid.shape.matrix });
-    const ratio = Math.min(devicePixelRatio, drawsInSoftware() ? 1 : 2);
-    this.painter.paint(shapes, this.camera, this.back, width, height, ratio);
+    this.painter.paint(shapes, this.camera, this.back, width, height, this.ratio(width * height));
+  }
+
+  // Of drawn pixels to those of the page. Where the processor draws many of them, they are coarse
+  // while the picture changes, and fine once it rests.
+  private ratio(pixels: number): number {
+    if (!drawsInSoftware()) return Math.min(devicePixelRatio, 2);
+    const now = performance.now();
+    const moves = now - this.drawn < REST && !this.rests;
+    this.drawn = now;
+    clearTimeout(this.timer);
+    this.rests = false;
+    if (pixels < MANY || !moves) return 1;
+    this.timer = window.setTimeout(() => {
+      this.rests = true;
+      this.redraw();
+    }, REST);
+    return 0.5;
   }
 
   // The film's own view: its pose, and its intrinsics as the projection, letter-boxed.
