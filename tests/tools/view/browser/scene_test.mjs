@@ -50,6 +50,11 @@ await until('a step', async () => (await look()).time > paused && (await standsS
 assert.ok(Math.abs((await look()).time - paused - 1 / 60) < 1e-3);
 console.log('ok: it runs, pauses and steps');
 
+// Nothing is known of a way to a goal where there is none: its curve comes with the click.
+const curves = () => page.locator('.chart:visible').allInnerTexts();
+assert.equal((await curves()).length, 3);
+assert.ok(!(await curves()).some((words) => words.includes('goal')));
+
 // A click attracts the flock: the mean distance falls, from where it was at the start.
 await page.keyboard.press('r');
 await until('the start', async () => (await look()).time === 0);
@@ -67,6 +72,7 @@ const meanDistance = ({ goals, position }) => {
 const far = meanDistance(await look());
 await page.keyboard.press('Space');
 await until('the flock comes', async () => meanDistance(await look()) < 0.65 * far);
+await until('its curve', async () => (await curves()).some((words) => words.includes('goal')));
 console.log('ok: a click attracts the flock');
 
 // A drag moves the goal, another the predator.

@@ -18,16 +18,18 @@ export function nameOf(event: KeyboardEvent): string {
   return ctrl + shift + key;
 }
 
+// Wherever the focus is: sliders that keep their keys to themselves hear of them later. While
+// somebody types, only those that write nothing.
 export function listenToKeys(keys: Key[]): void {
   addEventListener('keydown', (event) => {
     const target = event.target as HTMLElement;
     const types = target.matches('input:not([type=range]):not([type=checkbox]), textarea, select');
-    if (types || event.altKey) return;
     const name = nameOf(event);
+    if (event.altKey || types && !/^(F\d+|Escape)$/.test(name)) return;
     const key = keys.find((k) => k.keys.includes(name));
     if (!key) return;
     event.preventDefault();
     if (target.matches('button, input, summary')) target.blur();
     key.act();
-  });
+  }, { capture: true });
 }

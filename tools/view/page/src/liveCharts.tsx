@@ -5,13 +5,19 @@
 // attracts it.
 
 import { useEffect, useRef } from 'preact/hooks';
-import uPlot from 'uplot';
+import type uPlot from 'uplot';
 
-import { colourOf, ground } from './colours';
+import { colourOf } from './colours';
 import type { Look } from './live';
+import { Plots, type PlotInfo } from './plots';
 import { useValue, type Store } from './state';
 
-const NAMES = ['polarisation', 'mean speed [m/s]', 'spread [m]', 'mean distance to the goal [m]'];
+const CURVES: PlotInfo[] = [
+  { name: 'polarisation', y: [-0.02, 1.05] },
+  { name: 'mean speed [m/s]' },
+  { name: 'spread [m]' },
+  { name: 'mean distance to the goal [m]' },
+];
 const KEPT = 900;
 
 function measure(look: Look): (number | null)[] {
@@ -63,45 +69,22 @@ export function LiveCharts({ series, store }: { series: LiveSeries; store: Store
   useEffect(() => {
     const element = host.current;
     if (!element) return;
-    element.textContent = '';
-    const colours = ground(dark);
-    const size = () => ({ width: Math.max(Math.floor(element.clientWidth / NAMES.length) - 6, 80),
-      height: Math.max(element.clientHeight, 60) });
-    const fontSize = Math.round(parseFloat(getComputedStyle(element).fontSize) * 0.85);
-    const axis = { stroke: colours.ink, grid: { stroke: colours.grid, width: 1 },
-      font: `${fontSize}px system-ui, sans-serif`, ticks: { show: false } };
-    const plots = NAMES.map((name, k) => {
-      const cell = document.createElement('div');
-      cell.className = 'chart';
-      const title = document.createElement('span');
-      title.textContent = name;
-      cell.append(title);
-      element.append(cell);
-      return new uPlot({
-        ...size(), legend: { show: false },
-        cursor: { show: false },
-        scales: { x: { time: false }, y: k === 0 ? { range: [-0.02, 1.05] } : {} },
-        padding: [fontSize * 2.1, fontSize, 0, 0],
-        axes: [{ ...axis, size: fontSize * 1.9, space: 60 }, { ...axis, size: fontSize * 3.4, space: 28 }],
-        series: [{}, { stroke: colourOf(0, dark), width: 1.4, points: { show: false } }],
-      }, [[], []], cell);
-    });
+    const plots = new Plots(element, CURVES, dark,
+      [{ stroke: colourOf(0, dark), width: 1.4, points: { show: false } }],
+      { cursor: { show: false } }, '');
     let waiting = false;
     series.listener = () => {
       if (waiting) return;
       waiting = true;
       requestAnimationFrame(() => {
         waiting = false;
-        plots.forEach((plot, k) =>
-          plot.setData([series.columns[0] as number[], series.columns[k + 1]] as uPlot.AlignedData));
+        plots.set(CURVES.map((_, k) =>
+          [series.columns[0], series.columns[k + 1]] as uPlot.AlignedData));
       });
     };
-    const resize = new ResizeObserver(() => plots.forEach((plot) => plot.setSize(size())));
-    resize.observe(element);
     return () => {
-      resize.disconnect();
       series.listener = null;
-      plots.forEach((plot) => plot.destroy());
+      plots.destroy();
     };
   }, [dark]);
   return <div class="charts" ref={host} />;

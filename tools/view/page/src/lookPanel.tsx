@@ -85,12 +85,12 @@ export function LookPanel({ run }: { run: Run }) {
             onInput={(e) => store.set({ birdScale: Number(e.currentTarget.value) })} />
           <output>{state.birdScale.toFixed(1)}×</output>
         </label>
-        <label class="row wide">ghost
+        <label class="row wide">compare with
           <select value={state.ghost}
             onChange={(e) => store.set({ ghost: e.currentTarget.value as Ghost })}>
-            <option value="none">none</option>
-            {session.has.truth && <option value="truth">the truth</option>}
-            {solved && <option value="before">as it was before</option>}
+            <option value="none">nothing</option>
+            {session.has.truth && <option value="truth">the truth, in grey</option>}
+            {solved && <option value="before">the flock before, in grey</option>}
           </select>
         </label>
       </section>

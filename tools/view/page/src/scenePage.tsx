@@ -58,7 +58,7 @@ export function ScenePage({ session, store }: { session: SceneSession; store: St
     { keys: ['r'], shown: 'r', text: 'reset to the start', group: 'Time', act: () => steer(store, { do: 'reset' }) },
     { keys: ['e'], shown: 'e', text: 'no attraction any more', group: 'Steer', act: () => steer(store, { do: 'release' }) },
     { keys: ['d'], shown: 'd', text: 'draw a way that leads', group: 'Steer', act: sketch },
-    ...VIEWS.filter(([v]) => v !== 'follow').map(([view, words], k): Key => ({ keys: [String(k + 1)], shown: String(k + 1),
+    ...VIEWS.map(([view, words], k): Key => ({ keys: [String(k + 1)], shown: String(k + 1),
       text: words, group: 'View', act: () => store.set({ view: view as ViewName }) })),
     { keys: ['g'], shown: 'g', text: 'ground grid', group: 'Show', act: () => store.set({ grid: !store.get().grid }) },
     { keys: ['t'], shown: 't', text: 'trails', group: 'Show', act: () => store.set({ trails: store.get().trails > 0 ? 0 : 20 }) },

@@ -12,7 +12,7 @@ import type { Look } from './live';
 import { Discs, Lines } from './lines';
 import { Shape, shadeOf, shadesOf } from './shape';
 import { Space } from './space';
-import type { Store } from './state';
+import type { Store, ViewName } from './state';
 import type { SceneSession } from './types';
 
 export interface Steering {
@@ -35,6 +35,7 @@ export class SwarmView {
   private stroke: THREE.Vector3[] | null = null;
   private strokeLine = new Lines(2000, 1);
   private species: number[] = []; // of each animal
+  private followed = 0;
   private sizes: number[] = [];
 
   constructor(
@@ -68,7 +69,7 @@ export class SwarmView {
     paint();
     store.watch((state, before) => {
       if (state.dark !== before.dark || state.grid !== before.grid) paint();
-      if (state.view !== before.view) this.space.look(state.view, 1);
+      if (state.view !== before.view) this.lookFrom(state.view);
       this.dirty = true;
     });
     if (session.camera) this.space.look('orbit', 1);
@@ -86,6 +87,26 @@ export class SwarmView {
     this.past.push(look.position);
     if (this.past.length > 40) this.past.shift();
     this.dirty = true;
+  }
+
+  private lookFrom(view: ViewName): void {
+    this.space.look(view, 1);
+    if (view !== 'follow' || !this.look) return;
+    // Whoever is next to the middle of the flock.
+    const { position, agents } = this.look;
+    const at = (k: number) => new THREE.Vector3().fromArray(position, 3 * k);
+    const middle = new THREE.Vector3();
+    for (let k = 0; k < agents; k++) middle.addScaledVector(at(k), 1 / agents);
+    this.followed = 0;
+    for (let k = 1; k < agents; k++) {
+      if (at(k).distanceTo(middle) < at(this.followed).distanceTo(middle)) this.followed = k;
+    }
+  }
+  private follow(look: Look): void {
+    if (this.store.get().view !== 'follow' || this.followed >= look.agents) return;
+    const along = new THREE.Vector3().fromArray(look.velocity, 3 * this.followed);
+    const at = new THREE.Vector3().fromArray(look.position, 3 * this.followed);
+    this.space.follow(at, along, this.sizeOf(this.followed));
   }
 
   private paintBox(): void {
@@ -113,6 +134,7 @@ export class SwarmView {
   private draw(): void {
     this.dirty = false;
     const { look } = this;
+    if (look) this.follow(look);
     this.space.aim(1);
     if (look) {
       this.drawAnimals(look);

@@ -19,7 +19,7 @@ export function ViewButtons({ store, film }: { store: Store; film: boolean }) {
     <div class="views">
       {VIEWS.filter(([name]) => name !== 'camera' || film).map(([name, words]) => (
         <button class={view === name ? 'on' : ''}
-          title={name === 'follow' ? 'fly along with the selected animal' : words}
+          title={name === 'follow' ? 'fly along with an animal: the selected one, or one in the middle' : words}
           onClick={() => store.set({ view: name })}>{words}</button>
       ))}
     </div>
