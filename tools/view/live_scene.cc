@@ -7,10 +7,12 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <string_view>
 #include <utility>
 
 #include "simulate/core/check.h"
 #include "simulate/flock/model.h"
+#include "simulate/shapes/spline_path.h"
 #include "tools/view/scene_look.h"
 #include "tools/view/sketch.h"
 
@@ -22,6 +24,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kLooksPerSecond = 60;
 constexpr double kMostOfALook = 0.9;  // of its time may be stepping
 constexpr int kWaypoints = 24;
+constexpr int kPointsOfPath = 12;
 
 double Seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
@@ -34,6 +37,11 @@ void CheckFinite(const Vec3d& v) {
 void Merge(const ModelSpec& change, ModelSpec* spec) {
   for (const auto& [name, value] : change.parameters) spec->parameters[name] = value;
   for (const auto& [name, word] : change.choices) spec->choices[name] = word;
+}
+
+bool IsModel(const Scene& scene, std::string_view name) {
+  return std::any_of(scene.species.begin(), scene.species.end(),
+                     [&](const SpeciesSpec& s) { return s.model.name == name; });
 }
 
 }  // namespace
@@ -199,12 +207,15 @@ void LiveScene::StepOnce() {
   });
 }
 
+void LiveScene::Restart() {
+  Population start = Populate(scene_);
+  engine_ = std::make_unique<Engine>(start.world, start.swarms,
+                                     EngineOptions{.threads = threads_, .kernel = {}});
+  population_ = std::move(start);
+}
+
 void LiveScene::Reset() {
-  Do([&] {
-    population_ = Populate(scene_);
-    engine_ = std::make_unique<Engine>(population_.world, population_.swarms,
-                                       EngineOptions{.threads = threads_, .kernel = {}});
-  });
+  Do([&] { Restart(); });
 }
 
 void LiveScene::SetPace(double pace) {
@@ -261,14 +272,14 @@ void LiveScene::Attract(const std::optional<Vec3d>& position, double weight) {
   if (position) CheckFinite(*position);
   Check(weight > 0 && weight <= 1000, "the weight must be positive");
   Do([&] {
-    const bool crowd = std::any_of(scene_.species.begin(), scene_.species.end(),
-                                   [](const SpeciesSpec& s) { return s.model.name == "crowd"; });
-    if (crowd) {
-      if (!position || scene_.goals.empty()) return;
-      engine_->MoveGoal(0, *position);
-      scene_.goals[0].position = *position;
-      scene_.goals[0].waypoints.clear();
-      return;
+    const bool crowd = IsModel(scene_, "crowd");
+    if (crowd && scene_.goals.empty()) return;
+    if (crowd || (IsModel(scene_, "swarm") && !scene_.goals.empty() && !attraction_)) {
+      if (!position) return;
+      GoalSpec& goal = scene_.goals[0];
+      goal.position = *position;
+      if (std::exchange(goal.waypoints, {}).empty()) return engine_->MoveGoal(0, *position);
+      return Rebuild();
     }
     const std::vector<GoalSpec> before = scene_.goals;
     const auto attraction_before = attraction_;
@@ -300,16 +311,39 @@ void LiveScene::Lead(const std::vector<Vec3d>& line, double seconds, double weig
   Check(line.size() >= 2, "a way needs two points");
   Check(seconds > 0 && seconds < 1e5 && weight > 0, "a way needs a time and a weight");
   for (const Vec3d& p : line) CheckFinite(p);
+  Check(!IsModel(Current(), "crowd"), "the model crowd cannot be led along a line");
   Attract(line.front(), weight);
   Do([&] {
-    Check(attraction_.has_value(), "the model crowd cannot be led along a line");
-    GoalSpec& goal = scene_.goals[*attraction_];
+    GoalSpec& goal = scene_.goals.at(attraction_.value_or(0));
     const std::vector<Vec3d> points = EvenlyAlong(line, kWaypoints);
     for (int k = 0; k < kWaypoints; ++k) {
       goal.waypoints.push_back({.time = engine_->time() + seconds * k / (kWaypoints - 1),
                                 .position = points[static_cast<std::size_t>(k)]});
     }
     Rebuild();
+  });
+}
+
+void LiveScene::Guide(const std::vector<Vec3d>& line) {
+  Check(line.size() >= 2, "a path needs two points");
+  for (const Vec3d& p : line) CheckFinite(p);
+  Do([&] {
+    Check(!scene_.paths.empty(), "the scene has no path");
+    const auto from_line = [&](const PathSpec& path) {
+      return Norm(path.points.front() - line.front());
+    };
+    PathSpec& path = *std::min_element(
+        scene_.paths.begin(), scene_.paths.end(),
+        [&](const PathSpec& a, const PathSpec& b) { return from_line(a) < from_line(b); });
+    const std::vector<Vec3d> points = EvenlyAlong(line, kPointsOfPath);
+    SplinePath(points, /*closed=*/false);  // throws, when it is none
+    const std::vector<Vec3d> before = std::exchange(path.points, points);
+    try {
+      Restart();
+    } catch (...) {
+      path.points = before;
+      throw;
+    }
   });
 }
 

@@ -44,11 +44,15 @@ class LiveScene {
   void MoveGoal(std::size_t index, const Vec3d& position);
   void MovePredator(std::size_t index, const Vec3d& position);
   void SetWind(const Vec3d& velocity);
-  // A point that attracts everybody with `weight` [1/s^2]; none takes it away. For the model crowd,
-  // whose groups are made for their goals, the first goal moves there instead.
+  // A point that attracts everybody with `weight` [1/s^2]; none takes it away. Where animals go to
+  // goals of their own (crowd, whose groups are made for them) or to the nearest (swarm), the first
+  // goal moves there instead.
   void Attract(const std::optional<Vec3d>& position, double weight);
   // A goal that flies along a line from now on, over so many seconds; it attracts everybody.
   void Lead(const std::vector<Vec3d>& line, double seconds, double weight);
+  // The line becomes a path of the scene, the guidance curve of what moves along it: that which
+  // begins nearest to where the line begins. The scene starts anew.
+  void Guide(const std::vector<Vec3d>& line);
 
   // The scene as it is now: parameters, goals and wind as steered. Where the animals are is not
   // part of a scene.
@@ -64,6 +68,7 @@ class LiveScene {
  private:
   void Work();
   void Do(const std::function<void()>& change);
+  void Restart();  // from the scene's start
   void Rebuild();  // from where everybody is
   void MakeLook(double looks_per_second, double steps_per_second);
 

@@ -11,6 +11,7 @@
 #include "simulate/core/check.h"
 #include "simulate/core/scene_io.h"
 #include "simulate/flock/model.h"
+#include "simulate/shapes/spline_path.h"
 #include "tools/scene_camera.h"
 #include "tools/view/camera_json.h"
 #include "tools/view/event_bus.h"
@@ -25,6 +26,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostTriangles = 20000;  // of an obstacle; larger ones are drawn as boxes
+constexpr int kPiecesOfPath = 64;
 
 Json AsJson(const Vec3d& v) { return Json::array({v.x, v.y, v.z}); }
 
@@ -71,6 +73,16 @@ Json AsJson(const SpeciesSpec& species) {
           {"count", species.count}, {"wingspan", species.wingspan}, {"parameters", parameters}};
 }
 
+// A line of points along the curve.
+Json AsJson(const PathSpec& path) {
+  const SplinePath curve(path.points, /*closed=*/false);
+  Json line = Json::array();
+  for (int k = 0; k <= kPiecesOfPath; ++k) {
+    line.push_back(AsJson(curve.Position(curve.length() * k / kPiecesOfPath)));
+  }
+  return line;
+}
+
 }  // namespace
 
 class SceneView::Impl {
@@ -111,6 +123,8 @@ class SceneView::Impl {
     for (const GoalSpec& goal : now.goals) {
       json["goals"].push_back({{"species", goal.species}, {"reach", goal.reach}});
     }
+    json["paths"] = Json::array();
+    for (const PathSpec& path : now.paths) json["paths"].push_back(AsJson(path));
     int predators = 0;
     for (const PredatorSpec& spec : now.predators) predators += spec.count;
     json["predators"] = predators;
@@ -139,9 +153,10 @@ class SceneView::Impl {
     if (what == "wind") return live_.SetWind(PointOf(body.at("velocity")));
     if (what == "attract") return live_.Attract(PointOf(body.at("position")), weight);
     if (what == "release") return live_.Attract({}, weight);
-    if (what == "lead") {
+    if (what == "lead" || what == "guide") {
       std::vector<Vec3d> line;
       for (const Json& point : body.at("points")) line.push_back(PointOf(point));
+      if (what == "guide") return live_.Guide(line);
       return live_.Lead(line, body.at("seconds").get<double>(), weight);
     }
     Check(what == "parameter", "there is nothing to do called " + what);

@@ -141,5 +141,85 @@ TEST(LiveScene, AWayLeadsAGoalAlong) {
   EXPECT_EQ(live.Current().goals.at(0).waypoints.size(), 24u);
 }
 
+TEST(LiveScene, AClickMovesTheGoalOfASwarm) {
+  LiveScene live(ParseScene(R"(
+[scene]
+seed = 5
+duration = 5
+fps = 30
+box = [[-5, -5, 0], [5, 5, 10]]
+[[species]]
+name = "moth"
+count = 10
+speed = 2
+model = "swarm"
+[[goal]]
+position = [0, 0, 5]
+reach = 0.5
+)",
+                            "test"),
+                 1);
+  live.SetPace(20);
+  std::uint64_t seen = 0;
+  const Snapshot before = Next(&live, &seen);
+  const Vec3d point{4, 4, 9};
+  live.Attract(point, 3);
+  Snapshot s = before;
+  while (s.time < before.time + 8) s = Next(&live, &seen);
+  ASSERT_EQ(s.goals, 1u);
+  EXPECT_EQ(s.goal, (std::vector<float>{4, 4, 9}));
+  EXPECT_LT(MeanDistance(s, point, 10), 0.6 * MeanDistance(before, point, 10));
+  // So does a way, and a click after it.
+  live.Lead({{4, 4, 9}, {-4, -4, 1}}, 1, 3);
+  EXPECT_EQ(live.Current().goals.at(0).waypoints.size(), 24u);
+  live.Attract(point, 3);
+  EXPECT_TRUE(live.Current().goals.at(0).waypoints.empty());
+  EXPECT_EQ(live.Current().goals.at(0).position, point);
+}
+
+TEST(LiveScene, ALineBecomesTheNearestPath) {
+  LiveScene live(ParseScene(R"(
+[scene]
+seed = 5
+duration = 5
+fps = 30
+box = [[-20, -20, 0], [20, 20, 20]]
+[[species]]
+name = "bird"
+count = 10
+speed = 8
+model = "boids"
+[[path]]
+name = "left"
+points = [[-10, 0, 5], [-10, 10, 5]]
+[[path]]
+name = "right"
+points = [[10, 0, 5], [10, 10, 5]]
+)",
+                            "test"),
+                 1);
+  std::uint64_t seen = 0;
+  Snapshot s = Next(&live, &seen);
+  while (s.time < 0.1) s = Next(&live, &seen);
+  live.Pause(true);
+  live.Guide({{9, 0, 5}, {9, 0, 15}, {19, 0, 15}});
+  const std::vector<PathSpec> paths = ParseScene(FormatScene(live.Current()), "saved").paths;
+  ASSERT_EQ(paths.size(), 2u);
+  EXPECT_EQ(paths[0].points, (std::vector<Vec3d>{{-10, 0, 5}, {-10, 10, 5}}));
+  ASSERT_EQ(paths[1].points.size(), 12u);
+  EXPECT_EQ(paths[1].points.front(), (Vec3d{9, 0, 5}));
+  EXPECT_EQ(paths[1].points.back(), (Vec3d{19, 0, 15}));
+  for (std::size_t k = 1; k < 12; ++k) {  // evenly, but where the corner is cut
+    EXPECT_LE(Norm(paths[1].points[k] - paths[1].points[k - 1]), 20.0 / 11 + 1e-9);
+  }
+  s = Next(&live, &seen);
+  while (s.time > 0) s = Next(&live, &seen);  // anew
+  EXPECT_THROW(live.Guide({{1, 2, 3}}), std::invalid_argument);
+  EXPECT_THROW(live.Guide({{1, 2, 3}, {1, 2, 3}}), std::invalid_argument);
+  EXPECT_EQ(live.Current().paths[1].points, paths[1].points);
+  LiveScene without(SmallScene(), 1);
+  EXPECT_THROW(without.Guide({{0, 0, 0}, {1, 0, 0}}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace flocklift

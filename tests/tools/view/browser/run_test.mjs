@@ -164,6 +164,23 @@ await until('the command line', async () => /--method cobyla .*--d-near 50 --d-f
   await page.locator('.line code').innerText()));
 say('a slider changes the depths');
 
+// Keys are heard from a slider's field too, and two animals are chosen without the mouse.
+const mode = () => page.evaluate(() => window.flocklift.run.store.get().mode);
+await page.locator('[data-knob="d-far"] input').focus();
+await press('F3');
+assert.equal(await mode(), 'mend');
+await press('Escape');
+for (const key of ['Tab', 'Tab', 'w', 'Tab']) await press(key);
+assert.deepEqual([(await state()).selected, (await state()).second], [2, 1]);
+await press('Escape');
+const eye = () => page.evaluate(() => window.flocklift.flight.space.camera.position.toArray());
+for (const key of ['[', 'ArrowUp']) {
+  const there = await eye();
+  await press(key);
+  assert.notDeepEqual(await eye(), there, key);
+}
+say('the keyboard does it too');
+
 // Strokes become tracks, and a flock.
 await press('F4');
 const film = await page.locator('.film canvas').boundingBox();

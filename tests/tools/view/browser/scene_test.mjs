@@ -130,4 +130,30 @@ console.log('ok: the scene is saved as steered');
 
 assert.deepEqual(complaints, []);
 assert.equal(await server.stop(), 0);
+
+// In a scene with a path a stroke becomes the path, and one can fly along with an animal.
+writeFileSync(scene, readFileSync(scene, 'utf8') + '[path]\npoints = [[-9, 0, 3], [9, 0, 3]]\n');
+{
+  const guided = await serve(program, [scene, '--out', scratch]);
+  const opened = await openPage(browser, guided.address);
+  const path = () => opened.page.evaluate(async () => (await (await fetch('api/session')).json()).paths[0]);
+  await until('the scene', () => opened.page.evaluate(() => window.flocklift?.swarm?.look));
+  assert.ok(Math.abs((await path())[0][0] + 9) < 1e-9);
+  await opened.page.keyboard.press('d');
+  await opened.page.getByText('the curve that guides').waitFor();
+  await opened.page.mouse.move(canvas.x + 0.3 * canvas.width, canvas.y + 0.5 * canvas.height);
+  await opened.page.mouse.down();
+  for (let k = 1; k <= 8; k++) {
+    await opened.page.mouse.move(canvas.x + (0.3 + 0.04 * k) * canvas.width, canvas.y + (0.5 - 0.02 * k) * canvas.height);
+  }
+  await opened.page.mouse.up();
+  await until('the path', async () => Math.abs((await path())[0][0] + 9) > 0.01);
+  const eye = () => opened.page.evaluate(() => window.flocklift.swarm.space.camera.position.toArray().join());
+  await opened.page.keyboard.press('5');
+  const there = await eye();
+  await until('a flight', async () => (await eye()) !== there);
+  console.log('ok: a stroke becomes the path');
+  assert.deepEqual(opened.complaints, []);
+  assert.equal(await guided.stop(), 0);
+}
 await browser.close();

@@ -51,7 +51,10 @@ export class FlightView {
     paint();
     store.watch((state, before) => {
       if (state.dark !== before.dark || state.grid !== before.grid) paint();
-      if (state.view !== before.view) this.space.look(state.view, state.frame);
+      if (state.view !== before.view) {
+        this.space.look(state.view, state.frame);
+        if (state.view === 'follow' && state.selected < 0) this.choose(state.frame);
+      }
     });
     clock.onNeed(() => run.flock().ahead(store.get().frame) !== undefined);
     clock.onDraw(() => this.draw());
@@ -63,6 +66,18 @@ export class FlightView {
       const animal = this.animalAt(e.clientX - box.left, e.clientY - box.top);
       store.set(e.shiftKey ? { second: animal } : { selected: animal, second: -1 });
     });
+  }
+
+  // Somebody to fly along with.
+  private choose(frame: number): void {
+    const { store } = this.run;
+    const rows = this.run.flock().at(frame);
+    const [begin, end] = rows ? rowsOf(rows, frame) : [0, 0];
+    for (let r = begin; rows && r < end; r++) {
+      if (!isShown(store.get(), rows.animal[r])) continue;
+      store.set({ selected: rows.animal[r], second: -1 });
+      return;
+    }
   }
 
   // Birds are drawn larger than life where they would be specks.

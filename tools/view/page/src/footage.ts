@@ -114,7 +114,9 @@ export class FootageView {
     }
     // The centre of a picture's first pixel is (0, 0); the canvas has its corner there.
     g.setTransform(t.scale, 0, 0, t.scale, t.x + 0.5 * t.scale, t.y + 0.5 * t.scale);
-    const px = ratio / t.scale;
+    // Lines grow with the type, so that they are seen on a large screen too.
+    const type = parseFloat(getComputedStyle(document.documentElement).fontSize) / 13;
+    const px = (type * ratio) / t.scale;
     this.overlay.draw(g, this.shown.frame, px, this.shown.bitmap !== null);
     drawStrokes(g, this.strokes, px);
     if (this.shown.frame !== run.source.pictured(state.frame)) {

@@ -27,7 +27,7 @@ export function Help({ store, keys, mouse }: { store: Store; keys: Key[]; mouse:
               </dl>
             </section>
           ))}
-          <section>
+          <section class="mouse">
             <h3>Mouse</h3>
             <dl>{mouse.map(([what, does]) => [<dt>{what}</dt>, <dd>{does}</dd>])}</dl>
           </section>

@@ -25,6 +25,8 @@ export function listenToKeys(keys: Key[]): void {
     const target = event.target as HTMLElement;
     const types = target.matches('input:not([type=range]):not([type=checkbox]), textarea, select');
     const name = nameOf(event);
+    // Within a panel it goes to the next slider, as everywhere.
+    if (name.endsWith('Tab') && !target.matches('body, canvas')) return;
     if (event.altKey || types && !/^(F\d+|Escape)$/.test(name)) return;
     const key = keys.find((k) => k.keys.includes(name));
     if (!key) return;

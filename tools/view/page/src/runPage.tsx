@@ -18,11 +18,12 @@ import { Notices } from './notices';
 import type { Run } from './run';
 import { SketchPanel } from './sketchPanel';
 import { SolvePanel } from './solvePanel';
+import type { Space } from './space';
 import { hasWebGL } from './graphics';
 import { useValue, type Mode, type ViewName } from './state';
 import { ThemeButton, flipTheme } from './theme';
 import { SPEEDS, Transport } from './transport';
-import { VIEWS, ViewButtons } from './viewButtons';
+import { VIEWS, ViewButtons, moveKeys } from './viewButtons';
 
 const MODES: [Mode, string][] = [
   ['look', 'Look'],
@@ -39,7 +40,7 @@ const MOUSE: [string, string][] = [
   ['double click', 'the whole footage again'],
 ];
 
-function keysOf(run: Run, mending: Mending): Key[] {
+function keysOf(run: Run, mending: Mending, space: () => Space | undefined): Key[] {
   const { store, clock } = run;
   const flip = (name: 'boxes' | 'ids' | 'bars' | 'grid' | 'solo' | 'loop' | 'panel' | 'help') => () =>
     store.set({ [name]: !store.get()[name] });
@@ -49,8 +50,9 @@ function keysOf(run: Run, mending: Mending): Key[] {
   };
   const next = (by: number) => () => {
     const n = run.animals.length;
-    if (n > 0) store.set({ selected: (store.get().selected + by + n) % n, second: -1 });
+    if (n > 0) store.set({ selected: (store.get().selected + by + n) % n });
   };
+  const second = () => store.set({ second: store.get().selected });
   const hide = () => {
     const { selected, hidden } = store.get();
     if (selected >= 0) store.set({ hidden: new Set([...hidden, selected]), selected: -1 });
@@ -69,6 +71,7 @@ function keysOf(run: Run, mending: Mending): Key[] {
     { keys: ['+', '='], shown: '+', text: 'faster', group: 'Time', act: pace(1) },
     { keys: ['-'], shown: '−', text: 'slower', group: 'Time', act: pace(-1) },
     ...views,
+    ...moveKeys(space),
     { keys: ['b'], shown: 'b', text: 'boxes', group: 'Show', act: flip('boxes') },
     { keys: ['i'], shown: 'i', text: 'ids', group: 'Show', act: flip('ids') },
     { keys: ['u'], shown: 'u', text: 'depth uncertainty', group: 'Show', act: flip('bars') },
@@ -79,13 +82,20 @@ function keysOf(run: Run, mending: Mending): Key[] {
     { keys: ['?'], shown: '?', text: 'this help', group: 'Show', act: flip('help') },
     { keys: ['Tab'], shown: 'Tab', text: 'next animal', group: 'Animals', act: next(1) },
     { keys: ['Shift+Tab'], shown: 'shift Tab', text: 'animal before', group: 'Animals', act: next(-1) },
+    { keys: ['w'], shown: 'w', text: 'keep it as the second one', group: 'Animals', act: second },
     { keys: ['s'], shown: 's', text: 'solo: only the selected', group: 'Animals', act: flip('solo') },
     { keys: ['h'], shown: 'h', text: 'hide the selected', group: 'Animals', act: hide },
     { keys: ['Shift+H'], shown: 'shift h', text: 'show all', group: 'Animals', act: () => store.set({ hidden: new Set() }) },
-    { keys: ['Escape'], shown: 'Esc', text: 'select none, close', group: 'Animals', act: () => store.set({ selected: -1, second: -1, solo: false, help: false, message: '' }) },
+    { keys: ['Escape'], shown: 'Esc', text: 'select none, close', group: 'Animals', act: () => {
+      (document.activeElement as HTMLElement | null)?.blur();
+      store.set({ selected: -1, second: -1, solo: false, help: false, message: '' });
+    } },
   ];
   if (run.session.exported) return keys;
-  const mode = (m: Mode) => () => store.set({ mode: m, panel: true });
+  const mode = (m: Mode) => () => {
+    store.set({ mode: m, panel: true });
+    document.querySelector<HTMLElement>('aside')?.focus(); // Tab goes on from there
+  };
   const mend = (group: string, key: string, text: string, act: () => void, shown = key): Key => ({
     keys: [key], shown, text, group, act });
   return [
@@ -112,12 +122,13 @@ function keysOf(run: Run, mending: Mending): Key[] {
 
 export function RunPage({ run }: { run: Run }) {
   const { store, session } = run;
+  const flight = useRef<FlightView | null>(null);
   const film = useRef<HTMLCanvasElement>(null);
   const space = useRef<HTMLCanvasElement>(null);
   const [footage, setFootage] = useState<FootageView | null>(null);
   const [scale, setScale] = useState('');
   const mending = useMemo(() => new Mending(run), [run]);
-  const keys = useMemo(() => keysOf(run, mending), [run]);
+  const keys = useMemo(() => keysOf(run, mending, () => flight.current?.space), [run]);
   const mode = useValue(store, (s) => s.mode);
   const panel = useValue(store, (s) => s.panel);
   const table = useValue(store, (s) => s.table);
@@ -141,7 +152,7 @@ export function RunPage({ run }: { run: Run }) {
     if (space.current && webgl) {
       const view = new FlightView(space.current, run);
       setScale(`grid ${view.space.gridStep} m`);
-      handle.flight = view;
+      handle.flight = flight.current = view;
     }
     Object.assign(window, { flocklift: handle });
     void run.clock.drawn.then(() => {
@@ -190,7 +201,7 @@ export function RunPage({ run }: { run: Run }) {
       {drawn ? <Charts run={run} /> : <div class="charts" />}
       <Transport run={run} />
       {panel && (
-        <aside>
+        <aside tabIndex={-1}>
           {(mode === 'look' || session.exported) && <LookPanel run={run} />}
           {mode === 'solve' && !session.exported && <SolvePanel run={run} />}
           {mode === 'mend' && !session.exported && <MendPanel run={run} mending={mending} />}

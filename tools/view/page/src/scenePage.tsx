@@ -5,6 +5,7 @@
 
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 
+import { getJson, post } from './api';
 import { Help } from './help';
 import { listenToKeys, type Key } from './keys';
 import { watchLive } from './live';
@@ -16,7 +17,7 @@ import { SteerPanel, steer } from './steerPanel';
 import { SwarmView } from './swarm';
 import { ThemeButton, flipTheme } from './theme';
 import type { SceneSession } from './types';
-import { VIEWS, ViewButtons } from './viewButtons';
+import { VIEWS, ViewButtons, moveKeys } from './viewButtons';
 
 const PACES = [0.1, 0.25, 0.5, 1, 2, 4];
 const MOUSE: [string, string][] = [
@@ -29,6 +30,8 @@ const MOUSE: [string, string][] = [
 
 export function ScenePage({ session, store }: { session: SceneSession; store: Store }) {
   const canvas = useRef<HTMLCanvasElement>(null);
+  const swarm = useRef<SwarmView | null>(null);
+  const paceNow = useRef(1);
   const webgl = useMemo(hasWebGL, []);
   const series = useMemo(() => new LiveSeries(), []);
   const [rates, setRates] = useState('');
@@ -45,7 +48,12 @@ export function ScenePage({ session, store }: { session: SceneSession; store: St
   };
   const setThePace = (value: number) => {
     setPace(value);
+    paceNow.current = value;
     steer(store, { do: 'pace', value });
+  };
+  const hasten = (by: number) => {
+    const k = PACES.indexOf(paceNow.current) + by;
+    setThePace(PACES[Math.min(Math.max(k, 0), PACES.length - 1)]);
   };
   const sketch = () => store.set({ mode: store.get().mode === 'sketch' ? 'steer' : 'sketch' });
   const step = () => {
@@ -58,6 +66,9 @@ export function ScenePage({ session, store }: { session: SceneSession; store: St
     { keys: ['r'], shown: 'r', text: 'reset to the start', group: 'Time', act: () => steer(store, { do: 'reset' }) },
     { keys: ['e'], shown: 'e', text: 'no attraction any more', group: 'Steer', act: () => steer(store, { do: 'release' }) },
     { keys: ['d'], shown: 'd', text: 'draw a way that leads', group: 'Steer', act: sketch },
+    { keys: ['+', '='], shown: '+', text: 'faster', group: 'Time', act: () => hasten(1) },
+    { keys: ['-'], shown: '−', text: 'slower', group: 'Time', act: () => hasten(-1) },
+    ...moveKeys(() => swarm.current?.space),
     ...VIEWS.map(([view, words], k): Key => ({ keys: [String(k + 1)], shown: String(k + 1),
       text: words, group: 'View', act: () => store.set({ view: view as ViewName }) })),
     { keys: ['g'], shown: 'g', text: 'ground grid', group: 'Show', act: () => store.set({ grid: !store.get().grid }) },
@@ -78,9 +89,14 @@ export function ScenePage({ session, store }: { session: SceneSession; store: St
         movePredator: (index, position) => steer(store, { do: 'predator', index, position }),
         lead: (points) => {
           store.set({ mode: 'steer' });
-          steer(store, { do: 'lead', points, seconds: 12, weight });
+          if (session.paths.length === 0) return steer(store, { do: 'lead', points, seconds: 12, weight });
+          post('api/steer', { do: 'guide', points })
+            .then(() => getJson<SceneSession>('api/session'))
+            .then((now) => view?.showPaths(now.paths))
+            .catch((error: unknown) => store.fail(error));
         },
       });
+      swarm.current = view;
       setScale(`grid ${view.space.gridStep} m`);
       Object.assign(window, { flocklift: { store, swarm: view, series } });
     }

@@ -47,7 +47,7 @@ export function SketchPanel({ run, footage }: { run: Run; footage: FootageView }
   return (
     <div class="panel-body">
       <p>Draw over the picture: each stroke is the way of one animal, flown at an even pace.</p>
-      <label class="row wide">length
+      <label class="row wide">each lasts
         <input type="range" min="10" max={Math.max(run.clock.end - run.clock.first + 1, 11)} value={frames}
           onInput={(e) => setFrames(Number(e.currentTarget.value))} />
         <output>{frames} frames</output>

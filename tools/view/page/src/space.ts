@@ -159,6 +159,17 @@ export class Space {
     this.redraw();
   }
 
+  // About the middle, by keys: `turn` [rad] to the right, and nearer by a factor.
+  move(turn: number, nearer: number): void {
+    if (!this.controls.enabled) return;
+    const { target } = this.controls;
+    const from = this.camera.position.clone().sub(target);
+    from.applyAxisAngle(this.camera.up, turn).multiplyScalar(1 / nearer);
+    this.camera.position.copy(target).add(from);
+    this.controls.update();
+    this.redraw();
+  }
+
   // Behind an animal and above it, flying along.
   follow(position: THREE.Vector3, velocity: THREE.Vector3, size: number): void {
     const back = velocity.clone().normalize();

@@ -17,6 +17,7 @@ export function SteerPanel({ session, store }: { session: SceneSession; store: S
   const host = useRef<HTMLDivElement>(null);
   const [name, setName] = useState(`${session.name}_steered.toml`);
   const [saved, setSaved] = useState('');
+  const sketching = useValue(store, (s) => s.mode === 'sketch');
   const trails = useValue(store, (s) => s.trails);
   const scale = useValue(store, (s) => s.birdScale);
   useEffect(() => {
@@ -49,7 +50,13 @@ export function SteerPanel({ session, store }: { session: SceneSession; store: S
   };
   return (
     <div class="panel-body steer">
-      <p class="muted">Click: attract everybody there. Drag a goal or a predator. Turn with the mouse.</p>
+      {sketching ? (
+        <p class="hint">Drag over the scene: {session.paths.length > 0
+          ? 'the line becomes the curve that guides the animals, and the scene starts anew.'
+          : 'a goal flies along the line, and everybody follows it.'}</p>
+      ) : (
+        <p class="muted">Click: attract everybody there. Drag a goal or a predator. Turn with the mouse.</p>
+      )}
       <div ref={host} class="knobs" />
       <section>
         <label class="row wide">trails

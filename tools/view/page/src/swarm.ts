@@ -34,6 +34,7 @@ export class SwarmView {
   private past: Float32Array[] = [];
   private stroke: THREE.Vector3[] | null = null;
   private strokeLine = new Lines(2000, 1);
+  private paths = new Lines(4096, 1);
   private species: number[] = []; // of each animal
   private followed = 0;
   private sizes: number[] = [];
@@ -60,13 +61,14 @@ export class SwarmView {
       this.fixed.push(obstacle(vertices, triangles, this.space.sight()));
     }
     this.space.show(this.birds.shape, this.trails.shape, ...this.fixed, this.box.shape,
-      this.goals.shape, this.strokeLine.shape);
+      this.paths.shape, this.goals.shape, this.strokeLine.shape);
     const paint = () => {
       this.space.paint(store.get().dark, store.get().grid);
       this.paintBox();
       this.dirty = true;
     };
     paint();
+    this.showPaths(session.paths);
     store.watch((state, before) => {
       if (state.dark !== before.dark || state.grid !== before.grid) paint();
       if (state.view !== before.view) this.lookFrom(state.view);
@@ -79,6 +81,15 @@ export class SwarmView {
       requestAnimationFrame(loop);
     };
     requestAnimationFrame(loop);
+  }
+
+  showPaths(paths: SceneSession['paths']): void {
+    this.paths.begin();
+    for (const line of paths) {
+      for (let k = 1; k < line.length; k++) this.paths.add(...line[k - 1], ...line[k], '#e6820a');
+    }
+    this.paths.end();
+    this.dirty = true;
   }
 
   take(look: Look): void {

@@ -96,6 +96,7 @@ export interface SceneSession {
   predators: number;
   goals: { species: string; reach: number }[];
   obstacles: { vertices: number[]; triangles: number[] }[];
+  paths: [number, number, number][][]; // lines along the guidance curves
   camera: CameraInfo | null;
   wind: number[];
 }
