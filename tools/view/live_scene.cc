@@ -271,6 +271,12 @@ void LiveScene::SetWind(const Vec3d& velocity) {
 void LiveScene::Attract(const std::optional<Vec3d>& position, double weight) {
   if (position) CheckFinite(*position);
   Check(weight > 0 && weight <= 1000, "the weight must be positive");
+  const std::vector<SpeciesSpec> species = Current().species;
+  const bool follows = std::any_of(species.begin(), species.end(), [](const SpeciesSpec& one) {
+    return one.model.name != "morph";
+  });
+  Check(!position || follows,
+        "the model morph goes to shapes, not to goals: draw its path instead");
   Do([&] {
     const bool crowd = IsModel(scene_, "crowd");
     if (crowd && scene_.goals.empty()) return;

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 #include "simulate/core/check.h"
@@ -175,6 +177,40 @@ reach = 0.5
   live.Attract(point, 3);
   EXPECT_TRUE(live.Current().goals.at(0).waypoints.empty());
   EXPECT_EQ(live.Current().goals.at(0).position, point);
+}
+
+TEST(LiveScene, WhatGoesToShapesIsNotAttracted) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "live_scene_morph";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "one.ply") << "ply\nformat ascii 1.0\nelement vertex 4\n"
+                                       "property float x\nproperty float y\nproperty float z\n"
+                                       "element face 4\nproperty list uchar int vertex_indices\n"
+                                       "end_header\n0 0 0\n4 0 0\n0 4 0\n0 0 4\n"
+                                       "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  std::ofstream(folder / "scene.toml") << R"(
+[scene]
+duration = 5
+box = [[-20, -20, -5], [20, 20, 20]]
+[[species]]
+name = "t"
+count = 400
+wingspan = 0.2
+body_length = 0.2
+model = "morph"
+start = "one"
+shape = "two"
+[[shape]]
+name = "two"
+mesh = "one.ply"
+position = [10, 0, 0]
+[[shape]]
+name = "one"
+mesh = "one.ply"
+)";
+  LiveScene live(ReadScene(folder / "scene.toml"), 1);
+  EXPECT_THROW(live.Attract(Vec3d{1, 2, 3}, 1), std::invalid_argument);
+  EXPECT_TRUE(live.Current().goals.empty());
+  EXPECT_NO_THROW(live.Attract(std::nullopt, 1));
 }
 
 TEST(LiveScene, ALineBecomesTheNearestPath) {

@@ -196,6 +196,19 @@ for (const y of [0.45, 0.55]) {
 await page.getByText('find depth of 2 strokes').click();
 await until('the sketch', () => page.evaluate((v) => window.flocklift.run.versions.after > v, versions));
 assert.ok(existsSync(join(scratch, 'sketch_tracks.csv')));
+// In sight, wherever it is.
+await until('the new flock in sight', () => page.evaluate(() => {
+  const { run, flight } = window.flocklift;
+  const { frame } = run.store.get();
+  const rows = run.after.at(frame);
+  if (!rows || !run.after.isNew(frame)) return false;
+  const { clientWidth, clientHeight } = document.querySelector('.flight canvas');
+  for (let r = rows.start[frame - rows.first]; r < rows.start[frame - rows.first + 1]; r++) {
+    const p = flight.space.onCanvas(...rows.position.subarray(3 * r, 3 * r + 3));
+    if (!p || p[0] < 0 || p[1] < 0 || p[0] > clientWidth || p[1] > clientHeight) return false;
+  }
+  return true;
+}));
 say('strokes become tracks');
 
 assert.deepEqual(complaints, []);

@@ -29,6 +29,8 @@ export class FlightView {
   private ring = new Discs(1, 1);
   private seen = new Int32Array(0); // of each animal: the frame of its trail's end, and where
   private place = new Float32Array(0);
+  private fits = false;
+  onGrid: ((step: number) => void) | null = null; // hears its new width [m]
   readonly wingspan: number;
 
   constructor(
@@ -68,6 +70,24 @@ export class FlightView {
     });
   }
 
+  // Brings the flock into sight, once its rows are here.
+  fit(): void {
+    this.fits = true;
+    this.run.clock.redraw();
+  }
+  private fitNow(rows: TrajectoryRows): void {
+    const box = new THREE.Box3();
+    for (let r = 0; r < rows.animal.length; r++) box.expandByPoint(placeOf(rows, r));
+    const { store } = this.run;
+    this.fits = false;
+    if (box.isEmpty()) return;
+    box.getCenter(this.space.centre);
+    this.space.extent = Math.max(box.getSize(new THREE.Vector3()).length(), 1);
+    this.space.paint(store.get().dark, store.get().grid);
+    this.space.look(store.get().view, store.get().frame);
+    this.onGrid?.(this.space.gridStep);
+  }
+
   // Somebody to fly along with.
   private choose(frame: number): void {
     const { store } = this.run;
@@ -89,6 +109,7 @@ export class FlightView {
     const { run, space } = this;
     const { frame } = run.store.get();
     const rows = run.flock().ahead(frame);
+    if (rows && this.fits && run.flock().isNew(frame)) this.fitNow(rows);
     this.follow(rows, frame);
     space.aim(frame);
     const sight = space.sight();

@@ -116,6 +116,11 @@ export class FrameCache<T extends Rows> {
     this.windows.set(number, found);
     return found;
   }
+  // Whether the rows of a frame are here, and none of before.
+  isNew(frame: number): boolean {
+    const number = Math.floor(frame / this.length);
+    return this.windows.has(number) && !this.stale.has(number);
+  }
   // As at(), and gets what comes after it ready.
   ahead(frame: number): T | undefined {
     const found = this.at(frame);

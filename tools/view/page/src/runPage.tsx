@@ -18,7 +18,6 @@ import { Notices } from './notices';
 import type { Run } from './run';
 import { SketchPanel } from './sketchPanel';
 import { SolvePanel } from './solvePanel';
-import type { Space } from './space';
 import { hasWebGL } from './graphics';
 import { useValue, type Mode, type ViewName } from './state';
 import { ThemeButton, flipTheme } from './theme';
@@ -40,7 +39,7 @@ const MOUSE: [string, string][] = [
   ['double click', 'the whole footage again'],
 ];
 
-function keysOf(run: Run, mending: Mending, space: () => Space | undefined): Key[] {
+function keysOf(run: Run, mending: Mending, flight: () => FlightView | null): Key[] {
   const { store, clock } = run;
   const flip = (name: 'boxes' | 'ids' | 'bars' | 'grid' | 'solo' | 'loop' | 'panel' | 'help') => () =>
     store.set({ [name]: !store.get()[name] });
@@ -71,7 +70,8 @@ function keysOf(run: Run, mending: Mending, space: () => Space | undefined): Key
     { keys: ['+', '='], shown: '+', text: 'faster', group: 'Time', act: pace(1) },
     { keys: ['-'], shown: '−', text: 'slower', group: 'Time', act: pace(-1) },
     ...views,
-    ...moveKeys(space),
+    ...moveKeys(() => flight()?.space),
+    { keys: ['f'], shown: 'f', text: 'the flock into sight', group: 'View', act: () => flight()?.fit() },
     { keys: ['b'], shown: 'b', text: 'boxes', group: 'Show', act: flip('boxes') },
     { keys: ['i'], shown: 'i', text: 'ids', group: 'Show', act: flip('ids') },
     { keys: ['u'], shown: 'u', text: 'depth uncertainty', group: 'Show', act: flip('bars') },
@@ -128,7 +128,7 @@ export function RunPage({ run }: { run: Run }) {
   const [footage, setFootage] = useState<FootageView | null>(null);
   const [scale, setScale] = useState('');
   const mending = useMemo(() => new Mending(run), [run]);
-  const keys = useMemo(() => keysOf(run, mending, () => flight.current?.space), [run]);
+  const keys = useMemo(() => keysOf(run, mending, () => flight.current), [run]);
   const mode = useValue(store, (s) => s.mode);
   const panel = useValue(store, (s) => s.panel);
   const table = useValue(store, (s) => s.table);
@@ -152,6 +152,7 @@ export function RunPage({ run }: { run: Run }) {
     if (space.current && webgl) {
       const view = new FlightView(space.current, run);
       setScale(`grid ${view.space.gridStep} m`);
+      view.onGrid = (step) => setScale(`grid ${step} m`);
       handle.flight = flight.current = view;
     }
     Object.assign(window, { flocklift: handle });
@@ -205,7 +206,7 @@ export function RunPage({ run }: { run: Run }) {
           {(mode === 'look' || session.exported) && <LookPanel run={run} />}
           {mode === 'solve' && !session.exported && <SolvePanel run={run} />}
           {mode === 'mend' && !session.exported && <MendPanel run={run} mending={mending} />}
-          {mode === 'sketch' && !session.exported && footage && <SketchPanel run={run} footage={footage} />}
+          {mode === 'sketch' && !session.exported && footage && <SketchPanel run={run} footage={footage} fit={() => flight.current?.fit()} />}
         </aside>
       )}
       <Notices store={store} />

@@ -12,7 +12,8 @@ import { useNews } from './news';
 import type { Run } from './run';
 import type { SolveValues } from './types';
 
-export function SketchPanel({ run, footage }: { run: Run; footage: FootageView }) {
+export function SketchPanel({ run, footage, fit }:
+  { run: Run; footage: FootageView; fit: () => void }) {
   const [frames, setFrames] = useState(90);
   const [count, setCount] = useState(footage.strokes.length);
   const [command, setCommand] = useState('');
@@ -24,6 +25,10 @@ export function SketchPanel({ run, footage }: { run: Run; footage: FootageView }
     };
     return () => (footage.onStroke = null);
   }, []);
+  // The new flock may be far from where the old one was.
+  useEffect(() => {
+    if (news?.state === 'done' && command) fit();
+  }, [news?.state, news?.job, command]);
   const clear = () => {
     footage.strokes = [];
     setCount(0);
