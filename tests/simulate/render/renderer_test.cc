@@ -14,6 +14,7 @@
 
 #include "simulate/camera/projection.h"
 #include "simulate/core/rng.h"
+#include "simulate/core/triangle_mesh.h"
 
 namespace flocklift {
 namespace {
