@@ -10,10 +10,12 @@
 #include <memory>
 #include <optional>
 
+#include "reconstruct/fit/engine_flight.h"
 #include "simulate/camera/camera_io.h"
 #include "simulate/core/check.h"
 #include "simulate/core/io.h"
 #include "simulate/core/parameters.h"
+#include "simulate/core/scene_io.h"
 #include "simulate/core/text.h"
 #include "tools/evaluate_files.h"
 #include "tools/fit_comparison.h"
@@ -24,16 +26,21 @@
 namespace flocklift {
 namespace {
 
-ModelSpec ModelOf(const FitCommand& command) {
+// The scene's numbers, then the start's, then those that are set.
+ModelSpec ModelOf(const FitCommand& command, const std::optional<Scene>& scene) {
   ModelSpec model;
+  model.where = "--model";
+  if (scene) model = internal::SpeciesOf(*scene, command.model).model;
   if (!command.start.empty()) {
-    model = ReadParameters(command.start).model;
-    if (model.name != command.model) {
-      throw InputError(model.where, 0, "the start is of model " + model.name,
-                       "give --model " + model.name);
+    const ModelSpec start = ReadParameters(command.start).model;
+    if (start.name != command.model) {
+      throw InputError(start.where, 0, "the start is of model " + start.name,
+                       "give --model " + start.name);
     }
-  } else {
-    model.where = "--model";
+    model.where = start.where;
+    for (const auto& [name, value] : start.parameters) model.parameters[name] = value;
+    for (const auto& [name, word] : start.choices) model.choices[name] = word;
+    for (const auto& [name, where] : start.where_of) model.where_of[name] = where;
   }
   model.name = command.model;
   for (const std::string& text : command.set) {
@@ -187,7 +194,18 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
   problem.search = SimulatedSearchOf(command.search);
   ParseGoal(command.goal, &problem);
   if (!command.start.empty()) stage.AddInput(command.start);
-  problem.model = ModelOf(command);
+  if (!command.scene.empty()) {
+    stage.options()["scene"] = command.scene.string();
+    stage.AddInput(command.scene);
+    problem.scene = ReadScene(command.scene);
+    for (const ObstacleSpec& obstacle : problem.scene->obstacles) {
+      if (obstacle.mesh) stage.AddInput(*obstacle.mesh);
+    }
+    for (const ShapeSpec& shape : problem.scene->shapes) {
+      for (const ShapeSpec::KeyFrame& frame : shape.key_frames) stage.AddInput(frame.mesh);
+    }
+  }
+  problem.model = ModelOf(command, problem.scene);
   if (!command.camera.empty()) {
     stage.AddInput(command.camera);
     problem.camera = ReadCamera(command.camera);
@@ -234,7 +252,9 @@ void AddFitCommand(CLI::App& app) {
       "  flocklift fit truth/trajectories.csv --walls=-20,-20,2,20,20,22\n"
       "  flocklift fit trajectories.csv --model swarm --set evolution=3 --goal 0,0,5,4\n"
       "  flocklift fit first.csv --also second.csv --model kernels --out kernels\n"
-      "  flocklift fit trajectories.csv --model bswarm --start parameters.toml --walls=0,0,0,1,1,1",
+      "  flocklift fit trajectories.csv --model bswarm --start parameters.toml "
+      "--walls=0,0,0,1,1,1\n"
+      "  flocklift fit trajectories.csv --model shape --scene moon.toml --free alpha,w_dis,s_max",
       {.fps = true, .seed = true}, &RunFit, &command);
   sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
   sub->add_option("--model", command->model,
@@ -256,6 +276,10 @@ void AddFitCommand(CLI::App& app) {
   sub->add_option("--set", command->set, "NAME=VALUE of parameters that are not free")
       ->delimiter(',');
   sub->add_option("--start", command->start, "parameters.toml that gives what is not free");
+  sub->add_option("--scene", command->scene,
+                  "of simulated statistics: scene file that says what the animals fly to and "
+                  "around (shapes, paths, goals, obstacles) and what the numbers of --model start "
+                  "from; shape, morph and crowd need it");
   sub->add_option("--camera", command->camera, "camera file: where depth errors point");
   AddWallsFlag(*sub, &command->walls);
   sub->add_option("--goal", command->goal,
@@ -269,7 +293,8 @@ void AddFitCommand(CLI::App& app) {
          "(regression with instruments), differences (least squares on plain differences: "
          "badly biased, for comparison), noise-field (scale and gain of a swarm's curl noise, "
          "its seed unknown), statistics (simulations that move as the data do; models "
-         "without usable derivatives: bswarm, lin, opensteer), or auto, which never takes "
+         "without usable derivatives: bswarm, lin, opensteer, and with --scene shape, morph, "
+         "crowd), or auto, which never takes "
          "differences")
       ->check(CLI::IsMember({"auto", "state-space", "errors-in-variables", "differences",
                              "noise-field", "statistics"}))

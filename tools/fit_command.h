@@ -23,6 +23,7 @@ struct FitCommand {
   std::vector<std::filesystem::path> also = {};  // more films of the flock, of kernels only
   std::filesystem::path camera = {};  // empty: depth errors point away from the world's origin
   std::filesystem::path start = {};   // parameters.toml that gives what is not free
+  std::filesystem::path scene = {};   // what surrounds the animals, and the model's numbers
   std::string model = "boids";
   std::vector<std::string> free = {};     // empty: every weight, or kernel
   std::vector<std::string> set = {};      // "NAME=VALUE": what is not free

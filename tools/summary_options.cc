@@ -71,10 +71,13 @@ FitCommand FitCommandOf(const Json& summary, std::optional<double> scale_sd) {
   Take(options, "goal", &command.goal);
   Take(options, "method", &command.method);
   Take(options, "search", &command.search);
+  std::string scene;
+  Take(options, "scene", &scene);
+  command.scene = scene;
   if (options.contains("fit")) TakeOptions(options.at("fit"), &command.fit);
   if (scale_sd && command.fit.scale_sd == *scale_sd) command.fit.scale_sd = 0;  // each its own
   for (const fs::path& input : InputsOf(summary)) {
-    if (input.extension() == ".toml") command.start = input;
+    if (input.extension() == ".toml" && input != command.scene) command.start = input;
   }
   return command;
 }

@@ -215,12 +215,17 @@ FitResult FitModel(const FitOptions& options, const FitProblem& problem,
                    const Progress& progress) {
   CheckOptions(options);
   Check(fps > 0, "fps must be positive");
+  const bool by_statistics = problem.method == FitMethod::kStatistics ||
+                             (problem.method == FitMethod::kAuto &&
+                              !internal::StatisticsParameters(problem.model).empty());
+  if (problem.scene && (!by_statistics || problem.model.name == "swarm")) {
+    throw InputError("--scene", 0, "only fits by simulated statistics know the surroundings",
+                     "take --method statistics, or leave the scene out");
+  }
   if (problem.model.name == "swarm") {
     return internal::FitSwarmNoise(options, problem, trajectories, fps, threads);
   }
-  if (problem.method == FitMethod::kStatistics ||
-      (problem.method == FitMethod::kAuto &&
-       !internal::StatisticsParameters(problem.model).empty())) {
+  if (by_statistics) {
     return internal::FitStatistics(options, problem, trajectories, fps, seed, threads, progress);
   }
   if (problem.method == FitMethod::kNoiseField) {

@@ -22,7 +22,8 @@
 //                        likelihood (noise_field.h)
 // and for models without usable derivatives, such as bswarm:
 //   statistics           simulations whose speeds, accelerations, turning rates, distances and
-//                        polarisation are as the data's (simulated_fit.h)
+//                        polarisation are as the data's (simulated_fit.h); shape, morph and crowd
+//                        need the scene that says what they fly to
 // A goal may move: only what it does to animals apart from each other is used, and its mean place
 // is estimated. A state-space estimate frees radii and tapers too; elsewhere they are given. World
 // frame, z up; metres, seconds.
@@ -106,7 +107,7 @@ enum class FitMethod {
   kErrorsInVariables,
   kDifferences,
   kNoiseField,  // of the model swarm, and of no other
-  kStatistics,  // of any model but swarm; the default for bswarm, lin and opensteer
+  kStatistics,  // of any model but swarm; the default where the others do not know the model
 };
 std::string NameOf(FitMethod method);  // as in the list above
 // Throws std::invalid_argument for another name.
@@ -124,6 +125,7 @@ struct FitProblem {
   Vec3d goal_position;           // when given [m]
   double goal_reach = 0;         // likewise: animals nearer than this are there [m]
   std::optional<Camera> camera;  // where depth errors point; absent: eye at the world's origin
+  std::optional<Scene> scene;    // of simulated statistics: what surrounds the animals
 };
 
 struct FittedWeight {

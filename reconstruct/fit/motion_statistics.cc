@@ -11,7 +11,7 @@
 namespace flocklift {
 namespace {
 
-constexpr double kStill = 1e-9;  // an animal slower than this has no direction [m/s]
+constexpr double kStill = 1e-3;  // an animal slower than this has no direction [m/s]
 
 const Vec3d* Find(const FramePositions& frame, Id id) {
   const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), id);
@@ -22,9 +22,9 @@ const Vec3d* Find(const FramePositions& frame, Id id) {
 }  // namespace
 
 std::optional<MotionStatistics> ComputeMotionStatistics(std::span<const FramePositions> frames,
-                                                        double dt) {
+                                                        double dt, const TargetDistances& target) {
   std::array<std::vector<double>, kMotionStatistics.size()> values;
-  auto& [speeds, accelerations, turns, distances, polarisations] = values;
+  auto& [speeds, accelerations, turns, distances, polarisations, ways] = values;
   for (std::size_t f = 1; f + 1 < frames.size(); ++f) {
     std::vector<Vec3d> velocities;
     for (std::size_t k = 0; k < frames[f].id.size(); ++k) {
@@ -33,15 +33,21 @@ std::optional<MotionStatistics> ComputeMotionStatistics(std::span<const FramePos
       if (before == nullptr || after == nullptr) continue;
       const Vec3d v = (*after - *before) / (2 * dt);
       const Vec3d a = (*after - 2.0 * frames[f].position[k] + *before) / (dt * dt);
-      velocities.push_back(v);
       speeds.push_back(Norm(v));
       accelerations.push_back(Norm(a));
-      if (Norm(v) > kStill) turns.push_back(Norm(Cross(v, a)) / SquaredNorm(v));
+      if (!(Norm(v) > kStill)) continue;
+      velocities.push_back(v);
+      turns.push_back(Norm(Cross(v, a)) / SquaredNorm(v));
     }
     const std::vector<double> nearest = NearestNeighbourDistances(frames[f].position);
     distances.insert(distances.end(), nearest.begin(), nearest.end());
     if (const auto polarisation = Polarisation(velocities)) polarisations.push_back(*polarisation);
   }
+  for (std::size_t f = 0; target && f < frames.size(); ++f) {
+    const std::vector<double> of = target(f, frames[f].position);
+    ways.insert(ways.end(), of.begin(), of.end());
+  }
+  if (!target) ways = {0};
   MotionStatistics statistics{};
   auto out = statistics.begin();
   for (std::vector<double>& of : values) {

@@ -6,6 +6,7 @@
 //   speed |v| [m/s], acceleration |a| [m/s^2], turning rate |v x a| / |v|^2 [rad/s], over animals
 //   and frames with v, a central differences;
 //   distance to the nearest neighbour [m]; polarisation | mean v / |v| |, one a frame
+//   distance to what a scene gives to fly to (target_distance.h) [m]; all 0 where there is nothing
 // A quantile is moved by a few wild values no more than by any others.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_MOTION_STATISTICS_H_
@@ -13,6 +14,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -22,8 +24,9 @@
 
 namespace flocklift {
 
-inline constexpr std::array<std::string_view, 5> kMotionStatistics = {
-    "speed", "acceleration", "turning_rate", "neighbour_distance", "polarisation"};
+inline constexpr std::array<std::string_view, 6> kMotionStatistics = {
+    "speed",        "acceleration",   "turning_rate", "neighbour_distance",
+    "polarisation", "target_distance"};
 inline constexpr std::array<double, 9> kMotionQuantiles = {0.05, 0.15, 0.25, 0.4, 0.5,
                                                            0.6,  0.75, 0.85, 0.95};
 
@@ -36,10 +39,16 @@ struct FramePositions {
   std::vector<Vec3d> position;
 };
 
-// Frames in a row, dt apart [s]. Nothing when one of the five has no value, as for fewer than three
-// frames or two animals.
+// How far places are from what there is to fly to, in one of the frames; none in a frame that is
+// not looked at.
+using TargetDistances =
+    std::function<std::vector<double>(std::size_t frame, const std::vector<Vec3d>& places)>;
+
+// Frames in a row, dt apart [s]. Nothing when one has no value, as for fewer than three frames or
+// two animals. Without `target` the last statistic has none.
 std::optional<MotionStatistics> ComputeMotionStatistics(std::span<const FramePositions> frames,
-                                                        double dt);
+                                                        double dt,
+                                                        const TargetDistances& target = {});
 
 }  // namespace flocklift
 

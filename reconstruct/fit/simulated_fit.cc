@@ -19,7 +19,7 @@ namespace {
 using Quantiles = Eigen::Array<double, Eigen::Dynamic, 1>;
 
 constexpr double kImpossible = 1e12;        // J where a simulation has no statistics
-constexpr double kSmallSpread = 1e-3;       // of a statistic's size: the least sd_q
+constexpr double kSmallSpread = 3e-3;       // of a statistic's largest quantile: the least sd_q
 constexpr double kUnfelt = 1e-9;            // of the largest eigenvalue of G' W G
 constexpr double kSmallPart = 0.05;         // of a unit vector
 constexpr double kNearEnd = 0.05;           // of log theta
@@ -27,6 +27,7 @@ constexpr double kInterval = 1.96;          // sd, of a 95 % interval
 constexpr double kExcluded = 3;             // sd: farther away nothing may be as good
 constexpr double kLeastChallenge = 0.01;    // of log theta
 constexpr double kFirstStep = 0.15;         // of log theta, BOBYQA's
+constexpr double kHelps = 0.99;             // J after / before another round of BOBYQA
 constexpr std::uint64_t kFirstSeed = 1000;  // of those at which the spread is taken
 
 Quantiles AsArray(const MotionStatistics& statistics) {
@@ -42,7 +43,15 @@ class Search {
         simulate_(simulate),
         data_(AsArray(data)),
         start_(start),
-        progress_(progress) {}
+        progress_(progress) {
+    const double end = std::log(options.range);
+    low_.assign(start.size(), -end);
+    high_.assign(start.size(), end);
+    for (std::size_t k = 0; k < options.legal.size(); ++k) {
+      low_[k] = std::max(low_[k], std::log(std::max(options.legal[k].low, 1e-300) / start[k]));
+      high_[k] = std::min(high_[k], std::log(options.legal[k].high / start[k]));
+    }
+  }
 
   SimulatedFit Run();
 
@@ -60,6 +69,9 @@ class Search {
   double Cost(const std::vector<double>& x);
   void Optimize(nlopt::algorithm algorithm, int evaluations, std::vector<double>* x);
   void Summarize(const std::vector<double>& x, const Eigen::MatrixXd& spread, SimulatedFit* fit);
+  Eigen::ArrayXd CostOfSeeds(const Eigen::MatrixXd& spread) const;
+  double BestCost() const;
+  double Lack(const Eigen::MatrixXd& spread) const;
   // The largest J of parameters that may be the truth.
   double Acceptable(const Eigen::MatrixXd& spread) const;
   // Raises the sd to what was tried and is acceptable.
@@ -74,7 +86,8 @@ class Search {
   const Quantiles data_;
   const std::vector<double>& start_;
   const Progress& progress_;
-  Quantiles sd_;
+  std::vector<double> low_, high_;  // of log theta
+  Quantiles sd_, floor_;            // sd_q, and what it is at least
   struct Trial {
     std::vector<double> x;
     Quantiles mean;
@@ -108,7 +121,12 @@ bool Search::TakeSpread(const std::vector<double>& x, Eigen::MatrixXd* spread) {
   if (!all) return false;
   *spread = all->colwise() - all->rowwise().mean();
   *spread /= std::sqrt(std::max(1, options_.spread_seeds - 1));
-  sd_ = spread->rowwise().norm().array().max(kSmallSpread * data_.abs()).max(1e-12);
+  floor_.resize(data_.size());
+  const auto quantiles = static_cast<Eigen::Index>(kMotionQuantiles.size());
+  for (Eigen::Index q = 0; q < data_.size(); q += quantiles) {
+    floor_.segment(q, quantiles) = kSmallSpread * data_.segment(q, quantiles).abs().maxCoeff();
+  }
+  sd_ = spread->rowwise().norm().array().max(floor_).max(1e-12);
   return true;
 }
 
@@ -132,18 +150,30 @@ void Search::Optimize(nlopt::algorithm algorithm, int evaluations, std::vector<d
   solver.set_min_objective([](const std::vector<double>& at, std::vector<double>&,
                               void* search) { return static_cast<Search*>(search)->Cost(at); },
                            this);
-  solver.set_lower_bounds(-std::log(options_.range));
-  solver.set_upper_bounds(std::log(options_.range));
-  solver.set_maxeval(evaluations);
+  solver.set_lower_bounds(low_);
+  solver.set_upper_bounds(high_);
   solver.set_xtol_abs(1e-3);
-  if (algorithm == nlopt::LN_BOBYQA) solver.set_initial_step(kFirstStep);
-  double cost = 0;
-  try {
-    solver.optimize(*x, cost);
-  } catch (const nlopt::roundoff_limited&) {
-    // The best that was tried counts.
+  if (algorithm == nlopt::LN_BOBYQA) {
+    std::vector<double> step(x->size(), kFirstStep);
+    for (std::size_t k = 0; k < step.size(); ++k) {
+      step[k] = std::min(step[k], 0.4 * (high_[k] - low_[k]));
+    }
+    solver.set_initial_step(step);
   }
-  *x = best_;
+  // BOBYQA's model of J may have shrunk onto a wrinkle: it begins anew as long as that helps.
+  const int end = evaluations_ + evaluations;
+  double before = std::numeric_limits<double>::infinity();
+  do {
+    before = best_cost_;
+    solver.set_maxeval(end - evaluations_);
+    double cost = 0;
+    try {
+      solver.optimize(*x, cost);
+    } catch (const nlopt::roundoff_limited&) {
+      // The best that was tried counts.
+    }
+    *x = best_;
+  } while (algorithm == nlopt::LN_BOBYQA && evaluations_ < end && best_cost_ < kHelps * before);
 }
 
 void Search::Summarize(const std::vector<double>& x, const Eigen::MatrixXd& spread,
@@ -174,7 +204,10 @@ void Search::Summarize(const std::vector<double>& x, const Eigen::MatrixXd& spre
   const Eigen::MatrixXd m = eigen.eigenvectors() * inverse.asDiagonal() *
                             eigen.eigenvectors().transpose() * weighted.transpose();
   const Eigen::MatrixXd part = m * ((1 / sd_).matrix().asDiagonal() * spread);
-  const Eigen::MatrixXd covariance = (1 + 1.0 / options_.simulations) * part * part.transpose();
+  const Eigen::MatrixXd least_part = m * (floor_ / sd_).matrix().asDiagonal();
+  const Eigen::MatrixXd covariance =
+      Lack(spread) * ((1 + 1.0 / options_.simulations) * part * part.transpose() +
+                      least_part * least_part.transpose());
   fit->correlation.assign(static_cast<std::size_t>(p * p), 0);
   for (Eigen::Index a = 0; a < p; ++a) {
     // A direction that nothing feels leaves all that have a part in it unknown.
@@ -194,15 +227,34 @@ void Search::Summarize(const std::vector<double>& x, const Eigen::MatrixXd& spre
   }
 }
 
-// J of data that are any one of the spread's seeds, at most. Or the best J and its noise, which is
-// its range over those seeds: the search may end above them.
-double Search::Acceptable(const Eigen::MatrixXd& spread) const {
+// J of data that are any one of the spread's seeds.
+Eigen::ArrayXd Search::CostOfSeeds(const Eigen::MatrixXd& spread) const {
   const double factor = (1 + 1.0 / options_.simulations) * (options_.spread_seeds - 1);
-  const Eigen::ArrayXd of_seeds =
-      factor * ((1 / sd_).matrix().asDiagonal() * spread).colwise().squaredNorm().array();
+  return factor * ((1 / sd_).matrix().asDiagonal() * spread).colwise().squaredNorm().array() +
+         (floor_ / sd_).square().sum();
+}
+
+// Of all that was tried, by the sd_q at hand.
+double Search::BestCost() const {
   double least = std::numeric_limits<double>::infinity();
   for (const Trial& trial : tried_) least = std::min(least, CostOf(trial.mean));
-  return std::max(of_seeds.maxCoeff(), least + of_seeds.maxCoeff() - of_seeds.minCoeff());
+  return least;
+}
+
+// How many times the J of such data the best J is: 1 or more.
+double Search::Lack(const Eigen::MatrixXd& spread) const {
+  return std::max(1.0, BestCost() / std::max(CostOfSeeds(spread).mean(), 1e-300));
+}
+
+// J of data that are any one of those seeds, at most. Or the best J and its noise, which is its
+// range over those seeds: the search may end above them. Where the best J is above them because the
+// model is not the truth, as much more as it is above them.
+double Search::Acceptable(const Eigen::MatrixXd& spread) const {
+  const Eigen::ArrayXd of_seeds = CostOfSeeds(spread);
+  const double most = of_seeds.maxCoeff() + (floor_ / sd_).square().sum();
+  const double least = BestCost();
+  return std::max({most, least + of_seeds.maxCoeff() - of_seeds.minCoeff(),
+                   least * most / std::max(of_seeds.mean(), 1e-300)});
 }
 
 void Search::Cover(const std::vector<double>& x, double acceptable,
@@ -218,8 +270,8 @@ void Search::Cover(const std::vector<double>& x, double acceptable,
 // From the best that was tried there, and from x moved just there and to the middle.
 bool Search::Challenge(const std::vector<double>& x, std::size_t k, double offset,
                        double acceptable) {
-  const double end = std::log(options_.range);
-  std::vector<double> low(x.size(), -end), high(x.size(), end), step(x.size(), kFirstStep);
+  std::vector<double> low = low_, high = high_, step(x.size(), kFirstStep);
+  if (x[k] + offset < low[k] || x[k] + offset > high[k]) return false;  // nothing is there
   (offset > 0 ? low : high)[k] = x[k] + offset;
   step[k] = std::min(step[k], 0.4 * (high[k] - low[k]));
   std::vector<std::vector<double>> starts = {x, x};
@@ -257,10 +309,11 @@ bool Search::Challenge(const std::vector<double>& x, std::size_t k, double offse
 void Search::Widen(const std::vector<double>& x, const Eigen::MatrixXd& spread,
                    std::vector<double>* log_sd) {
   const double acceptable = Acceptable(spread);
-  const double end = std::log(options_.range);
+  const double end = std::log(options_.range), near = options_.known + kNearEnd;
   for (std::size_t k = 0; k < x.size(); ++k) {
-    // What ends near where the search had to is not known to end there.
-    if (std::abs(x[k]) > end - options_.known - kNearEnd) {
+    // What ends near where the search had to is not known to end there; where the model does, it
+    // is.
+    if ((low_[k] == -end && x[k] < near - end) || (high_[k] == end && x[k] > end - near)) {
       (*log_sd)[k] = std::numeric_limits<double>::infinity();
     }
   }

@@ -12,6 +12,9 @@
 // estimate,
 //   cov log theta = (1 + 1/R) M C M',   M = (G' W G)^-1 G' W
 // so that what the statistics do not feel, beside their spread from seed to seed, has a large sd.
+// sd_q is at least 0.3 % of the statistic's largest quantile, and C that on its diagonal: no model
+// is nearer to what it models, and one without noise has no spread. Where J at its best is above that of another
+// seed's data the covariance is as many times larger. The search keeps to the model's range.
 // That is the bend of J at one point, and J may be as low far away. Acceptable is a theta whose J
 // is no greater than another seed of the estimate would have as data, or no farther above the best
 // J than J differs between such seeds. The sd is no less than 1 / 1.96 of the way to the farthest
@@ -29,6 +32,7 @@
 #include <vector>
 
 #include "reconstruct/fit/motion_statistics.h"
+#include "simulate/core/options.h"
 #include "simulate/core/progress.h"
 
 namespace flocklift {
@@ -45,6 +49,7 @@ struct SimulatedFitOptions {
   double known = 0.25;             // half a 95 % interval of log theta that is worth a challenge
   int challenge_evaluations = 30;  // at most, from each of three starts on either side
   int nuisance = 0;                // of theta, at its end: fitted, never challenged
+  std::vector<Range> legal = {};   // of each of theta; empty: any number
   std::uint64_t seed = 1;
   int threads = 1;
 };

@@ -7,13 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <stdexcept>
+#include <span>
 
+#include "reconstruct/fit/engine_flight.h"
 #include "reconstruct/fit/simulated_fit.h"
+#include "reconstruct/fit/target_distance.h"
 #include "simulate/core/check.h"
 #include "simulate/core/suggest.h"
-#include "simulate/flock/engine.h"
 
 namespace flocklift::internal {
 namespace {
@@ -31,76 +31,6 @@ std::vector<FramePositions> FramesOf(const Trajectories& trajectories) {
     }
   }
   return frames;
-}
-
-// Where simulations start, and how long they last.
-struct Start {
-  World world;
-  Swarm swarm;
-  std::size_t first = 0, frames = 0;  // of the data's
-  int substeps = 1;
-};
-
-Start MakeStart(const FitOptions& options, const FitProblem& problem, Trajectories trajectories,
-                double fps) {
-  const std::vector<FramePositions> frames = FramesOf(trajectories);
-  Start start;
-  const auto fullest =
-      std::max_element(frames.begin(), frames.end(),
-                       [](const auto& a, const auto& b) { return a.id.size() < b.id.size(); });
-  start.first = static_cast<std::size_t>(fullest - frames.begin());
-  start.frames = frames.size() - start.first;
-  if (options.statistics_time > 0) {
-    start.frames = std::min(
-        start.frames, 1 + static_cast<std::size_t>(std::lround(options.statistics_time * fps)));
-  }
-  ComputeVelocities(fps, &trajectories);
-  const int frame = SpanOf(trajectories).first + static_cast<int>(start.first);
-  start.swarm.species = "fitted";
-  for (const Trajectory& trajectory : trajectories.trajectories) {
-    double speed = 0;
-    const TrajectoryPoint* now = nullptr;
-    for (const TrajectoryPoint& point : trajectory.points) {
-      speed += Norm(point.velocity) / static_cast<double>(trajectory.points.size());
-      if (point.frame == frame) now = &point;
-    }
-    if (now == nullptr) continue;
-    start.swarm.position.push_back(now->position);
-    start.swarm.velocity.push_back(now->velocity);
-    start.swarm.cruising_speed.push_back(speed);
-  }
-  start.substeps = std::max(1, options.substeps);
-  start.world.dt = 1 / (fps * start.substeps);
-  start.world.time = (frame - 1) / fps;
-  if (problem.walls) start.world.box = *problem.walls;
-  if (problem.goal == GoalChoice::kGiven) {
-    GoalSpec goal;
-    goal.position = problem.goal_position;
-    goal.reach = problem.goal_reach;
-    start.world.goals = {goal};
-  }
-  return start;
-}
-
-std::optional<MotionStatistics> Simulated(const Start& start, const ModelSpec& model,
-                                          double own_speed, std::uint64_t seed) {
-  World world = start.world;
-  world.seed = seed;
-  Swarm swarm = start.swarm;
-  for (double& speed : swarm.cruising_speed) speed *= own_speed;
-  std::vector<FramePositions> frames;
-  try {
-    swarm.model = ResolveModel(model);
-    Engine engine(world, {swarm}, {.threads = 1, .kernel = {}});
-    for (std::size_t f = 0; f < start.frames; ++f) {
-      for (int step = 0; f > 0 && step < start.substeps; ++step) engine.Step();
-      const FlockState state = engine.State();
-      frames.push_back({state.id, state.position});
-    }
-  } catch (const std::runtime_error&) {
-    return std::nullopt;  // out of range, or a flock that flew apart
-  }
-  return ComputeMotionStatistics(frames, start.world.dt * start.substeps);
 }
 
 std::vector<double> StartValues(const ModelSpec& model, const std::vector<std::string>& free) {
@@ -121,6 +51,16 @@ std::vector<double> StartValues(const ModelSpec& model, const std::vector<std::s
     values.push_back(found->second);
   }
   return values;
+}
+
+std::vector<Range> LegalRanges(const std::string& model, const std::vector<std::string>& free) {
+  std::vector<Range> ranges;
+  for (const std::string& name : free) {
+    for (const ParameterInfo& parameter : FindModel(model)->parameters) {
+      if (parameter.name == name) ranges.push_back(parameter.range);
+    }
+  }
+  return ranges;
 }
 
 void AddWeights(const std::vector<std::string>& free, const SimulatedFit& fit, double known,
@@ -150,13 +90,27 @@ void AddWeights(const std::vector<std::string>& free, const SimulatedFit& fit, d
 }  // namespace
 
 std::vector<std::string> StatisticsParameters(const ModelSpec& model) {
-  if (model.name == "bswarm") return {"w_rep", "w_ali", "w_att", "r_rep", "r_ali", "r_att"};
-  if (model.name == "lin") return {"w_sep", "d_sep", "gain"};
+  std::vector<std::string> names;
+  if (model.name == "bswarm") names = {"w_rep", "w_ali", "w_att", "r_rep", "r_ali", "r_att"};
+  if (model.name == "lin") names = {"w_sep", "d_sep", "gain"};
   if (model.name == "opensteer") {
-    return {"separation_weight", "alignment_weight", "cohesion_weight",
-            "separation_radius", "alignment_radius", "cohesion_radius"};
+    names = {"separation_weight", "alignment_weight", "cohesion_weight",
+             "separation_radius", "alignment_radius", "cohesion_radius"};
   }
-  return {};
+  if (model.name == "shape") names = {"alpha", "w_dis", "s_max", "drag", "gain"};
+  if (model.name == "morph") names = {"speed0", "omega1", "omega2", "departure_time"};
+  if (model.name == "crowd") names = {"f_max", "f_min", "alpha", "gamma"};
+  if (!NeedsScene(model.name)) return names;
+  // What the scene leaves out is no part of it.
+  std::erase_if(names, [&](const std::string& name) {
+    const auto found = model.parameters.find(name);
+    return found != model.parameters.end() && !(found->second > 0);
+  });
+  return names;
+}
+
+bool NeedsScene(const std::string& model) {
+  return model == "shape" || model == "morph" || model == "crowd";
 }
 
 FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
@@ -168,6 +122,11 @@ FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
   if (free.empty()) {
     throw InputError(model.where, 0, "nothing is named to be fitted by statistics", "give --free");
   }
+  if (NeedsScene(model.name) && !problem.scene) {
+    throw InputError(model.where, 0,
+                     "model " + model.name + " flies to what trajectories do not hold",
+                     "give the scene that does: --scene SCENE.toml");
+  }
   std::vector<double> values = StartValues(model, free);
   FitResult result;
   result.method = FitMethod::kStatistics;
@@ -178,12 +137,14 @@ FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
     result.status = FitStatus::kTooFewAnimals;
     return result;
   }
-  const Start start = MakeStart(options, problem, trajectories, fps);
-  result.parameters.goals = start.world.goals;
-  result.frames = static_cast<int>(start.frames);
   const std::vector<FramePositions> frames = FramesOf(trajectories);
-  const std::optional<MotionStatistics> data =
-      ComputeMotionStatistics(std::span(frames).subspan(start.first, start.frames), 1 / fps);
+  const FlightStart start = MakeFlightStart(options, problem, frames, trajectories, fps);
+  if (!problem.scene) result.parameters.goals = start.world.goals;
+  result.frames = static_cast<int>(start.frames);
+  TargetDistances target;
+  if (problem.scene) target = MakeTargetDistances(start);
+  const std::optional<MotionStatistics> data = ComputeMotionStatistics(
+      std::span(frames).subspan(start.first, start.frames), 1 / fps, target);
   if (!data) {
     result.status = FitStatus::kTooFewFrames;
     return result;
@@ -194,17 +155,21 @@ FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
   const auto simulate = [&](const std::vector<double>& theta, std::uint64_t of) {
     ModelSpec spec = model;
     for (std::size_t k = 0; k < free.size(); ++k) spec.parameters[free[k]] = theta[k];
-    return Simulated(start, spec, own_speed ? theta.back() : 1, of);
+    const auto flown = Fly(start, spec, own_speed ? theta.back() : 1, of);
+    if (!flown) return std::optional<MotionStatistics>();
+    return ComputeMotionStatistics(*flown, 1 / fps, target);
   };
   SimulatedFitOptions search;
   search.search = problem.search;
   search.global_evaluations = options.global_evaluations;
   search.local_evaluations = options.local_evaluations;
   search.range = options.search_range;
+  search.legal = LegalRanges(model.name, free);
   search.seed = seed;
   search.threads = threads;
   if (own_speed) {
     values.push_back(1);
+    search.legal.push_back({.low = 0});
     search.nuisance = 1;
   }
   const SimulatedFit fit = FitSimulated(search, simulate, *data, values, progress);
@@ -220,7 +185,8 @@ FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
           fit.estimate.back() * speed / static_cast<double>(start.swarm.cruising_speed.size());
     }
   }
-  for (std::size_t k = 0; k < kMotionStatistics.size(); ++k) {
+  const std::size_t last = kMotionStatistics.size() - (target ? 0 : 1);  // the target's
+  for (std::size_t k = 0; k < last; ++k) {
     result.misfit.push_back({std::string(kMotionStatistics[k]), fit.misfit[k]});
     if (!(fit.misfit[k] > kMisfit)) continue;
     result.warnings.push_back(

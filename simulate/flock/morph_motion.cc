@@ -21,18 +21,14 @@ constexpr double kObstacleCells = 96;        // along the longest side of their 
 constexpr double kRoomAboutObstacles = 0.1;  // of that side, beside their range
 
 // `name` is what the species' `setting` says.
-const TriangleMesh& ShapeMesh(const MotionContext& context, const std::string& name,
-                              const std::string& setting) {
+std::vector<Tetra> Filled(const MotionContext& context, const std::string& name,
+                          const std::string& setting, std::size_t count) {
   for (const ShapeInTime& shape : context.world->shapes) {
-    if (shape.name == name) return shape.meshes.front();
+    if (shape.name != name) continue;
+    return shape.filling.size() == count ? shape.filling : FillWith(shape.meshes.front(), count);
   }
   RefuseModel(context, "the model morph of the species " + context.species + " has no " + setting,
               "name a [[shape]]: " + setting + " = \"NAME\"");
-}
-
-std::vector<Tetra> FillWith(const TriangleMesh& mesh, std::size_t count) {
-  const TetraMesh solid = Tetrahedralize(mesh, {.most_tetrahedra = static_cast<int>(count)});
-  return SubdivideTo(count, Separate(solid));
 }
 
 // C_S or C_T: of the volume.
@@ -160,6 +156,11 @@ class MorphMotion final : public Motion<T> {
 
 }  // namespace
 
+std::vector<Tetra> FillWith(const TriangleMesh& mesh, std::size_t count) {
+  const TetraMesh solid = Tetrahedralize(mesh, {.most_tetrahedra = static_cast<int>(count)});
+  return SubdivideTo(count, Separate(solid));
+}
+
 MorphScene PrepareMorph(const MorphParameters& p, const MotionContext& context, std::size_t count) {
   const World& world = *context.world;
   if (context.forces != nullptr && !context.forces->empty()) {
@@ -167,8 +168,8 @@ MorphScene PrepareMorph(const MorphParameters& p, const MotionContext& context, 
                 "take the forces out");
   }
   MorphScene scene;
-  scene.from = FillWith(ShapeMesh(context, context.start_shape, "start"), count);
-  scene.to = FillWith(ShapeMesh(context, context.shape, "shape"), count);
+  scene.from = Filled(context, context.start_shape, "start", count);
+  scene.to = Filled(context, context.shape, "shape", count);
   scene.path = KeyPoints(world, context.path, CentroidOf(scene.from), CentroidOf(scene.to));
   scene.obstacles = ObstacleDistances(world, p.k_a, context.pool->threads());
   scene.options = OptionsOf(p, world, context.path);

@@ -8,13 +8,18 @@
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_MORPH_MOTION_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_MORPH_MOTION_H_
 
+#include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "simulate/flock/flock_morph.h"
 #include "simulate/flock/morph_model.h"
 #include "simulate/flock/motion.h"
 
 namespace flocklift {
+
+// The solid within a closed mesh as `count` tetrahedra. Throws as PrepareMorph.
+std::vector<Tetra> FillWith(const TriangleMesh& mesh, std::size_t count);
 
 // What the morph of `count` tetrahedra is made from. Throws std::invalid_argument when the species
 // has no two shapes, or they cannot be filled with so many.

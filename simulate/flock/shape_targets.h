@@ -37,12 +37,14 @@ class ShapeTargets {
   Vec3d Velocity(double time) const;
   double Spacing(double time) const;  // mean distance of the samples sqrt(A/N) [m]
 
+  // The shape as it is, and where it is, at a time.
+  TriangleMesh MeshAt(double time) const;
+
   // Mean distance of points, by agent, to the surface of the shape now: a shape error [m].
   double MeanDistanceToSurface(const std::vector<Vec3d>& points, double time) const;
 
  private:
   std::size_t ShapeAt(double time) const;
-  TriangleMesh MeshAt(double time) const;
 
   const ShapeInTime& shape_;
   std::optional<SplinePath> path_;

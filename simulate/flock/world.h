@@ -16,6 +16,7 @@
 #include "simulate/core/triangle_mesh.h"
 #include "simulate/fields/solids.h"
 #include "simulate/flock/predators.h"
+#include "simulate/shapes/tetra_mesh.h"
 
 namespace flocklift {
 
@@ -34,6 +35,8 @@ struct ShapeInTime {
   std::vector<TriangleMesh> meshes;  // one for each time, world frame
   double period = 0;                 // [s]
   std::string path;                  // along which it moves; empty: it stands
+  // The first mesh as tetrahedra, for whoever flies the same morph many times; empty: filled anew.
+  std::vector<Tetra> filling = {};
 };
 
 // Without a box there are no walls.

@@ -34,7 +34,29 @@ TEST(MotionStatistics, OfTwoOnACircleAreThoseOfTheCircle) {
     EXPECT_NEAR((*statistics)[2 * n + q], rate, 1e-3);
     EXPECT_NEAR((*statistics)[3 * n + q], 0.7, 1e-12);
     EXPECT_NEAR((*statistics)[4 * n + q], 1, 1e-12);
+    EXPECT_EQ((*statistics)[5 * n + q], 0);
   }
+}
+
+TEST(MotionStatistics, OfAPlaceToFlyToAreTheDistancesInTheFramesLookedAt) {
+  const std::vector<FramePositions> frames(4, {{1, 2}, {{0, 0, 0}, {3, 0, 0}}});
+  const auto target = [](std::size_t frame, const std::vector<Vec3d>& places) {
+    std::vector<double> distances;
+    for (const Vec3d& place : places) {
+      if (frame % 2 == 0) distances.push_back(1 + Norm(place));
+    }
+    return distances;
+  };
+  // Nobody moves, so there is no direction.
+  EXPECT_FALSE(ComputeMotionStatistics(frames, 1, target).has_value());
+  std::vector<FramePositions> moving = frames;
+  for (std::size_t f = 0; f < moving.size(); ++f) {
+    for (Vec3d& place : moving[f].position) place.z = static_cast<double>(f);
+  }
+  const auto statistics = ComputeMotionStatistics(moving, 1, target);
+  ASSERT_TRUE(statistics.has_value());
+  // At z = 0 and 2: 1, 4, 1 + 2, 1 + sqrt(13).
+  EXPECT_NEAR((*statistics)[statistics->size() - 5], (3 + 4) / 2.0, 1e-12);
 }
 
 TEST(MotionStatistics, HaveNoValueWithoutNeighboursOrFrames) {
@@ -161,6 +183,29 @@ TEST(SimulatedFit, EverySearchEndsAtTheTruthOfStatisticsWithoutNoise) {
   }
 }
 
+// Statistics without noise whose truth lies at the end of the legal range; what it is at is known.
+TEST(SimulatedFit, KeepsToTheLegalRange) {
+  double most = 0;
+  const auto exact = [&most](const std::vector<double>& theta, std::uint64_t) {
+    MotionStatistics s{};
+    most = std::max(most, theta[0]);
+    for (std::size_t k = 0; k < s.size(); ++k) {
+      s[k] = (k % 2 == 0 ? theta[0] : 1) * std::pow(theta[1], static_cast<double>(k % 3));
+    }
+    return std::optional(s);
+  };
+  const auto data = *exact({1.2, 0.8}, 1);  // beyond the range
+  most = 0;
+  SimulatedFitOptions options;
+  options.search = SimulatedSearch::kBobyqa;
+  options.legal = {{.low = 0, .high = 1}, {.low = 0}};
+  const SimulatedFit fit = FitSimulated(options, exact, data, {0.5, 1});
+  ASSERT_TRUE(fit.usable);
+  EXPECT_LT(most, 1.11);  // the slopes of the statistics alone are taken on either side
+  EXPECT_NEAR(fit.estimate[0], 1, 0.01);
+  EXPECT_TRUE(std::isfinite(fit.log_sd[0]));
+}
+
 TEST(SimulatedFit, ChecksWhatItStartsFrom) {
   EXPECT_THROW(FitSimulated({}, LinearStatistics, {}, {0}), std::invalid_argument);
   const auto none = [](const std::vector<double>&, std::uint64_t) {
@@ -212,7 +257,7 @@ TEST(StatisticsFit, MatchesBswarmAndFlagsWhatStatisticsDoNotFeel) {
   EXPECT_FALSE(one.weights[1].determined);
   EXPECT_LT(std::abs(std::log(one.weights[0].value / 0.3)),
             3 * one.weights[0].sd / one.weights[0].value);
-  ASSERT_EQ(one.misfit.size(), kMotionStatistics.size());
+  ASSERT_EQ(one.misfit.size(), kMotionStatistics.size() - 1);  // there is nothing to fly to
   for (const auto& [name, misfit] : one.misfit) EXPECT_LT(misfit, 3) << name;
   EXPECT_EQ(one.weights[0].value, two.weights[0].value);
   EXPECT_EQ(one.weights[0].sd, two.weights[0].sd);

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/fit/engine_flight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "reconstruct/fit/goal_groups.h"
+#include "simulate/core/check.h"
+#include "simulate/flock/morph_motion.h"
+#include "simulate/flock/simulate_scene.h"
+
+namespace flocklift::internal {
+namespace {
+
+// No more of the scene than its species' start needs.
+Scene StartOf(Scene scene, const std::string& model) {
+  const SpeciesSpec species = SpeciesOf(scene, model);
+  scene.obstacles.clear();
+  std::erase_if(scene.shapes,
+                [&](const ShapeSpec& shape) { return shape.name != species.start_shape; });
+  return scene;
+}
+
+// The surroundings and the species of the scene, at its start.
+void TakeScene(const Scene& scene, const std::string& model, double fps, FlightStart* start) {
+  const SpeciesSpec& species = SpeciesOf(scene, model);
+  Population population = Populate(scene);
+  start->world = std::move(population.world);
+  for (Swarm& swarm : population.swarms) {
+    if (swarm.species == species.name) start->swarm = std::move(swarm);
+  }
+  for (ShapeInTime& shape : start->world.shapes) {
+    if (model != "morph") break;
+    if (shape.name != start->swarm.shape && shape.name != start->swarm.start_shape) continue;
+    shape.filling = FillWith(shape.meshes.front(), start->swarm.position.size());
+  }
+  start->substeps = std::max(1, static_cast<int>(std::lround(scene.fps * scene.substeps / fps)));
+}
+
+// The flock as it is in the data's frame `index`.
+void TakeFlock(const std::vector<FramePositions>& frames, Trajectories trajectories, double fps,
+               FlightStart* start) {
+  Swarm& swarm = start->swarm;
+  const double radius = swarm.radius.empty() ? 0 : swarm.radius.front();
+  swarm.position.clear();
+  swarm.velocity.clear();
+  swarm.cruising_speed.clear();
+  ComputeVelocities(fps, &trajectories);
+  const int frame = SpanOf(trajectories).first + static_cast<int>(start->first);
+  std::vector<Id> ids;
+  for (const Trajectory& trajectory : trajectories.trajectories) {
+    double speed = 0;
+    const TrajectoryPoint* now = nullptr;
+    for (const TrajectoryPoint& point : trajectory.points) {
+      speed += Norm(point.velocity) / static_cast<double>(trajectory.points.size());
+      if (point.frame == frame) now = &point;
+    }
+    if (now == nullptr) continue;
+    ids.push_back(trajectory.id);
+    swarm.position.push_back(now->position);
+    swarm.velocity.push_back(now->velocity);
+    swarm.cruising_speed.push_back(speed);
+  }
+  swarm.radius.assign(ids.size(), radius);
+  start->world.time = (frame - 1) / fps;
+  if (swarm.spec.name != "crowd") return;
+  const std::vector<std::size_t> order =
+      OrderByGoal(start->world, swarm.species, frames,
+                  start->world.time - static_cast<double>(start->first) / fps, fps, ids);
+  const Swarm unordered = swarm;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    swarm.position[k] = unordered.position[order[k]];
+    swarm.velocity[k] = unordered.velocity[order[k]];
+    swarm.cruising_speed[k] = unordered.cruising_speed[order[k]];
+  }
+}
+
+}  // namespace
+
+const SpeciesSpec& SpeciesOf(const Scene& scene, const std::string& model) {
+  for (const SpeciesSpec& species : scene.species) {
+    if (species.model.name == model && species.count > 0) return species;
+  }
+  throw InputError("--scene", 0, "no species of the scene moves by the model " + model,
+                   "name the model of one: --model");
+}
+
+FlightStart MakeFlightStart(const FitOptions& options, const FitProblem& problem,
+                            const std::vector<FramePositions>& frames, Trajectories trajectories,
+                            double fps) {
+  FlightStart start;
+  start.swarm.species = "fitted";
+  start.substeps = std::max(1, options.substeps);
+  if (problem.scene) TakeScene(*problem.scene, problem.model.name, fps, &start);
+  start.swarm.spec = problem.model;
+  start.world.dt = 1 / (fps * start.substeps);
+  if (problem.walls) start.world.box = *problem.walls;
+  if (problem.goal == GoalChoice::kGiven) {
+    GoalSpec goal;
+    goal.position = problem.goal_position;
+    goal.reach = problem.goal_reach;
+    start.world.goals = {goal};
+  }
+  const bool morphs = problem.model.name == "morph";
+  const auto most = options.statistics_time > 0 && !morphs
+                        ? 1 + static_cast<std::size_t>(std::lround(options.statistics_time * fps))
+                        : frames.size();
+  if (problem.scene && (morphs || problem.model.name == "shape")) {
+    if (!morphs) start.drawn = StartOf(*problem.scene, problem.model.name);
+    start.frames = std::min(frames.size(), most);
+    const double time = (SpanOf(trajectories).first - 1) / fps - start.world.time;
+    start.steps_before = std::max<std::int64_t>(0, std::llround(time / start.world.dt));
+    return start;
+  }
+  const auto fullest =
+      std::max_element(frames.begin(), frames.end(),
+                       [](const auto& a, const auto& b) { return a.id.size() < b.id.size(); });
+  start.first = static_cast<std::size_t>(fullest - frames.begin());
+  start.frames = std::min(frames.size() - start.first, most);
+  TakeFlock(frames, std::move(trajectories), fps, &start);
+  return start;
+}
+
+std::optional<std::vector<FramePositions>> Fly(const FlightStart& start, const ModelSpec& model,
+                                               double own_speed, std::uint64_t seed) {
+  World world = start.world;
+  world.seed = seed;
+  Swarm swarm = start.swarm;
+  if (start.drawn) {
+    Scene scene = *start.drawn;
+    scene.seed = seed;
+    for (Swarm& drawn : Populate(scene).swarms) {
+      if (drawn.species == swarm.species) swarm = std::move(drawn);
+    }
+  }
+  for (double& speed : swarm.cruising_speed) speed *= own_speed;
+  std::vector<FramePositions> frames;
+  try {
+    swarm.model = ResolveModel(model);
+    swarm.spec = model;
+    Engine engine(world, {swarm}, {.threads = 1, .kernel = {}});
+    for (std::int64_t step = 0; step < start.steps_before; ++step) engine.Step();
+    for (std::size_t f = 0; f < start.frames; ++f) {
+      for (int step = 0; f > 0 && step < start.substeps; ++step) engine.Step();
+      FlockState state = engine.State();
+      state.id.resize(swarm.position.size());
+      state.position.resize(swarm.position.size());
+      frames.push_back({std::move(state.id), std::move(state.position)});
+    }
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
+  return frames;
+}
+
+}  // namespace flocklift::internal
