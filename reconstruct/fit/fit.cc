@@ -19,6 +19,7 @@
 #include "reconstruct/fit/state_space.h"
 #include "reconstruct/fit/statistics_fit.h"
 #include "reconstruct/fit/swarm_noise.h"
+#include "reconstruct/fit/window_choice.h"
 #include "simulate/core/check.h"
 #include "simulate/flock/model.h"
 
@@ -232,7 +233,13 @@ FitResult FitModel(const FitOptions& options, const FitProblem& problem,
     throw InputError(problem.model.where, 0, "model " + problem.model.name + " drifts in no noise",
                      "take the model swarm, or another --method");
   }
-  return internal::Fitter(options, problem, trajectories, fps, seed, threads).Run(progress);
+  FitOptions chosen = options;
+  if (options.window == 0 && trajectories.has_sd_depth &&
+      problem.method != FitMethod::kStateSpace && problem.method != FitMethod::kDifferences) {
+    chosen.window =
+        internal::ChooseWindowByFlight(options, problem, trajectories, fps, seed, threads);
+  }
+  return internal::Fitter(chosen, problem, trajectories, fps, seed, threads).Run(progress);
 }
 
 }  // namespace flocklift
