@@ -109,7 +109,7 @@ FitOptions FewEvaluations() {
   FitOptions options;
   options.statistics_time = 3;
   options.global_evaluations = 60;
-  options.local_evaluations = 40;
+  options.local_evaluations = 60;
   return options;
 }
 
