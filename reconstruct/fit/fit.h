@@ -65,7 +65,8 @@ struct FitOptions {
 template <typename Visitor>
 void Describe(Visitor& visit, FitOptions& o) {
   visit("window", o.window, {.low = 0, .high = 10000}, "frames",
-        "half width of the window accelerations are taken over; 0: chosen from the data");
+        "half width of the window accelerations are taken over; 0: chosen from the positions' "
+        "noise, of a reconstruction by how the model then flies");
   visit("longest-window", o.longest_window, {.low = 0}, "s", "longest window that is chosen");
   visit("substeps", o.substeps, {.low = 0, .high = 1000}, "",
         "steps a frame of the engine that the weights are for; 0: continuous time");
@@ -90,7 +91,8 @@ void Describe(Visitor& visit, FitOptions& o) {
   visit("local-evaluations", o.local_evaluations, {.low = 1, .high = 1000000}, "",
         "likewise: parameters tried near the best of those");
   visit("search-range", o.search_range, {.low = 1.01, .high = 1e3}, "",
-        "likewise: parameters are sought within this factor of where they start");
+        "likewise: parameters are sought within this factor of where they start; of less than 1.35 "
+        "nothing is known, since all ends near a bound");
 }
 
 // A point that attracts all animals, besides the model's own terms (a scene's [[goal]]).
