@@ -17,6 +17,7 @@
 #include "simulate/core/io.h"
 #include "simulate/core/parameters.h"
 #include "simulate/core/rng.h"
+#include "simulate/core/scene_io.h"
 #include "tests/reconstruct/fit/flocks.h"
 #include "tools/fit_command.h"
 #include "tools/replay_command.h"
@@ -123,6 +124,35 @@ TEST_F(FitReplayCommandTest, FitStartsFromAFileAndFreesWhatIsAsked) {
   EXPECT_THROW(Run(Fit(start + " --model boids2d"), "none"), InputError);
 }
 
+// The scene says what surrounds the animals and what the numbers start from, --set changes those.
+TEST_F(FitReplayCommandTest, FitsWithinAScene) {
+  Scene scene;
+  scene.fps = 10;
+  scene.substeps = 1;
+  scene.duration = 2;
+  scene.box = {{-10, -5, 0}, {10, 5, 0.5}};
+  SpeciesSpec walkers;
+  walkers.count = 12;
+  walkers.start = Region{{-7, -4, 0}, {0, 4, 0.5}};
+  walkers.model.name = "crowd";
+  walkers.model.parameters = {{"f_max", 1.2}, {"gamma", 2}};
+  scene.species = {walkers};
+  scene.goals.resize(1);
+  scene.goals[0].position = {8, 0, 0};
+  WriteTrajectories(folder_ / "walkers.csv", Fly(scene));
+  WriteScene(folder_ / "scene.toml", scene);
+  const fs::path out = Run("fit " + (folder_ / "walkers.csv").string() + " --model crowd --scene " +
+                               (folder_ / "scene.toml").string() +
+                               " --free f_max --set f_max=1 --search bobyqa --local-evaluations 15",
+                           "crowd");
+  const Parameters parameters = ReadParameters(out / "parameters.toml");
+  EXPECT_EQ(parameters.model.parameters.at("gamma"), 2);
+  EXPECT_NEAR(parameters.model.parameters.at("f_max"), 1.2, 0.1);
+  const nlohmann::json figures = Figures(out / "summary.fit.json");
+  EXPECT_EQ(figures.at("method"), "statistics");
+  EXPECT_TRUE(figures.at("misfit").contains("target_distance"));
+}
+
 TEST_F(FitReplayCommandTest, FitRefusesWithNothingWritten) {
   const auto refused = [&](const std::string& arguments) {
     EXPECT_ANY_THROW(Run(Fit(arguments), "none")) << arguments;
@@ -139,6 +169,8 @@ TEST_F(FitReplayCommandTest, FitRefusesWithNothingWritten) {
   refused("--goal 1,2");
   refused("--held-out 3");
   refused("--start /nowhere.toml");
+  refused("--model shape");  // its mesh is in no file of trajectories
+  refused("--model shape --scene /nowhere.toml");
   std::ofstream(folder_ / "trajectories.csv") << "# fps=30\nframe,id,x,y,z\n1,1,0,0,0\n2,1,0,0,1\n";
   EXPECT_THROW(Run(Fit(""), "none"), CannotFit);
   EXPECT_THROW(Run(Fit("--compare starlings"), "none"), InputError);  // before what is too short
