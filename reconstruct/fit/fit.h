@@ -57,8 +57,8 @@ struct FitOptions {
   double scale_sd = 0;          // relative sd of the common scale in sd_depth
   int noise_animals = 400;      // of curl noise: animals of a field that it is sought from
   double statistics_time = 4;   // of simulated statistics: length of a simulation [s]; 0: all
-  int global_evaluations = 150;  // of simulated statistics, at most
-  int local_evaluations = 100;
+  int global_evaluations = 600;  // of simulated statistics, at most
+  int local_evaluations = 250;
   double search_range = 5;  // parameters are sought within this factor of their start
 };
 

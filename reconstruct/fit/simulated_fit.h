@@ -42,7 +42,7 @@ enum class SimulatedSearch { kBobyqa, kCrs, kIsres };  // the latter two, then B
 struct SimulatedFitOptions {
   SimulatedSearch search = SimulatedSearch::kCrs;
   int simulations = 3;                                    // R
-  int global_evaluations = 150, local_evaluations = 100;  // at most
+  int global_evaluations = 600, local_evaluations = 250;  // at most
   double range = 5;                                       // above 1
   int spread_seeds = 12;                                  // that sd_q and C are taken from
   double difference = 0.1;                                // of log theta, for G

@@ -85,6 +85,7 @@ FitOptions Quick() {
   FitOptions options;
   options.substeps = 1;
   options.statistics_time = 1;
+  options.global_evaluations = 150;
   options.local_evaluations = 6;
   options.noise_animals = 70;
   return options;
