@@ -66,6 +66,34 @@ void ArrowSystem::Add(const ResidualRow& row, double weight) {
   }
 }
 
+void ArrowSystem::Add(const Rows& rows, const Eigen::Vector3d& weight) {
+  const int count = std::min(kBand, n_ - rows.first);
+  const int last = k_ - static_cast<int>(rows.by_last.cols());
+  const Eigen::Matrix<double, kBand, 3> weighted = rows.path.transpose() * weight.asDiagonal();
+  const Eigen::Matrix<double, kBand, kBand> square = weighted * rows.path;
+  for (int a = 0; a < count; ++a) {
+    const int i = rows.first + a;
+    double* out = &band_[At(i, rows.first)];
+    for (int b = 0; b <= a; ++b) out[b] += square(a, b);
+  }
+  gradient_.segment(rows.first, count) += (weighted * rows.residual).head(count);
+  border_.row(rows.own).segment(rows.first, count) += (weighted * rows.by_own).head(count);
+  border_.bottomRows(rows.by_last.cols()).middleCols(rows.first, count).noalias() +=
+      rows.by_last.transpose() * weighted.topRows(count).transpose();
+  const Eigen::Vector3d own = weight.cwiseProduct(rows.by_own);
+  const Eigen::MatrixXd by_last = weight.asDiagonal() * rows.by_last;
+  const Eigen::VectorXd across = by_last.transpose() * rows.by_own;
+  corner_(rows.own, rows.own) += own.dot(rows.by_own);
+  corner_.row(rows.own).tail(across.size()) += across.transpose();
+  corner_.col(rows.own).tail(across.size()) += across;
+  corner_.bottomRightCorner(across.size(), across.size()).noalias() +=
+      by_last.transpose() * rows.by_last;
+  gradient_[n_ + rows.own] += own.dot(rows.residual);
+  gradient_.tail(k_ - last).noalias() += by_last.transpose() * rows.residual;
+}
+
+double ArrowSystem::Diagonal(int i) const { return band_[At(i, i)]; }
+
 bool ArrowSystem::Reduce(double damping, Eigen::MatrixXd* shared_matrix,
                          Eigen::VectorXd* shared_gradient) {
   for (int i = 0; i < n_; ++i) {
@@ -134,6 +162,72 @@ Eigen::VectorXd ArrowSystem::BackSubstitute(const Eigen::VectorXd& shared_step) 
   step.tail(own_) = own;
   return step;
 }
+
+template <int Count>
+void ArrowSystem::Multiply(const Eigen::Ref<const Columns<Count>>& x, const Columns<Count>& shared,
+                           Eigen::Ref<Columns<Count>> y, Columns<Count>* out) const {
+  Columns<Count> border(k_, Count);
+  border << x.bottomRows(own_), shared;
+  for (int i = 0; i < n_; ++i) {
+    const int low = std::max(0, i - kBand + 1);
+    const double* row = &band_[At(i, low)] - low;
+    Eigen::Matrix<double, 1, Count> sum = row[i] * x.row(i);
+    for (int j = low; j < i; ++j) {
+      sum += row[j] * x.row(j);
+      y.row(j) += row[j] * x.row(i);
+    }
+    y.row(i) += sum;
+  }
+  y.topRows(n_).noalias() += border_.transpose() * border;
+  Columns<Count> ends = corner_ * border;
+  ends.noalias() += border_ * x.topRows(n_);
+  y.bottomRows(own_) += ends.topRows(own_);
+  *out += ends.bottomRows(k_ - own_);
+}
+
+template <int Count>
+void ArrowSystem::Eliminate(Eigen::Ref<Columns<Count>> x, Columns<Count>* shared) const {
+  for (int i = 0; i < n_; ++i) {
+    const int low = std::max(0, i - kBand + 1);
+    const double* row = &factor_[At(i, low)] - low;
+    Eigen::Matrix<double, 1, Count> sum = x.row(i);
+    for (int j = low; j < i; ++j) sum -= row[j] * x.row(j);
+    x.row(i) = sum / row[i];
+  }
+  const Columns<Count> ends = reduced_border_ * x.topRows(n_);
+  x.bottomRows(own_) -= ends.topRows(own_);
+  own_factor_.triangularView<Eigen::Lower>().solveInPlace(x.bottomRows(own_));
+  own_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x.bottomRows(own_));
+  *shared -= ends.bottomRows(k_ - own_);
+  shared->noalias() -= own_to_shared_.transpose() * x.bottomRows(own_);
+}
+
+template <int Count>
+void ArrowSystem::Substitute(const Columns<Count>& shared, Eigen::Ref<Columns<Count>> x) const {
+  Columns<Count> border(k_, Count);
+  border.topRows(own_) = own_to_shared_ * shared;
+  own_factor_.triangularView<Eigen::Lower>().solveInPlace(border.topRows(own_));
+  own_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(border.topRows(own_));
+  x.bottomRows(own_) -= border.topRows(own_);
+  border.topRows(own_) = x.bottomRows(own_);
+  border.bottomRows(k_ - own_) = shared;
+  x.topRows(n_).noalias() -= reduced_border_.transpose() * border;
+  for (int i = n_ - 1; i >= 0; --i) {
+    const int low = std::max(0, i - kBand + 1);
+    const double* row = &factor_[At(i, low)] - low;
+    x.row(i) /= row[i];
+    for (int j = low; j < i; ++j) x.row(j) -= row[j] * x.row(i);
+  }
+}
+
+template void ArrowSystem::Multiply<1>(const Eigen::Ref<const Columns<1>>&, const Columns<1>&,
+                                       Eigen::Ref<Columns<1>>, Columns<1>*) const;
+template void ArrowSystem::Multiply<8>(const Eigen::Ref<const Columns<8>>&, const Columns<8>&,
+                                       Eigen::Ref<Columns<8>>, Columns<8>*) const;
+template void ArrowSystem::Eliminate<1>(Eigen::Ref<Columns<1>>, Columns<1>*) const;
+template void ArrowSystem::Eliminate<8>(Eigen::Ref<Columns<8>>, Columns<8>*) const;
+template void ArrowSystem::Substitute<1>(const Columns<1>&, Eigen::Ref<Columns<1>>) const;
+template void ArrowSystem::Substitute<8>(const Columns<8>&, Eigen::Ref<Columns<8>>) const;
 
 ArrowSystem::Posterior ArrowSystem::Covariance(const Eigen::MatrixXd& shared_covariance) const {
   Posterior posterior;

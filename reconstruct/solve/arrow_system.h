@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,11 @@ struct ResidualRow {
   }
 };
 
+// Vectors side by side, for as many right-hand sides.
+template <int Count>
+using Columns =
+    Eigen::Matrix<double, Eigen::Dynamic, Count, Count == 1 ? Eigen::ColMajor : Eigen::RowMajor>;
+
 class ArrowSystem {
  public:
   static constexpr int kBand = 12;  // stored entries of a row: columns i - 11 .. i
@@ -48,12 +54,27 @@ class ArrowSystem {
 
   int n() const { return n_; }
   int border() const { return k_; }
+  int own() const { return own_; }
+  const Eigen::MatrixXd& corner() const { return corner_; }
+  const Eigen::VectorXd& gradient() const { return gradient_; }  // n + k
+  double Diagonal(int i) const;                                  // of the path's unknowns
 
   void SetZero();
   // A system that asks for no step at all and says nothing of the flock.
   void SetIdentity();
   // Adds weight * (J^T J) and the gradient weight * J^T r. Entries of `path` past n are ignored.
   void Add(const ResidualRow& row, double weight = 1);
+  // Adds three residuals at once, each with its weight: derivatives by the 12 from `first`, by one
+  // unknown of its own and by the flock's last ones.
+  struct Rows {
+    int first = 0;
+    Eigen::Vector3d residual;
+    Eigen::Matrix<double, 3, kBand> path;
+    int own = 0;
+    Eigen::Vector3d by_own;
+    Eigen::Matrix<double, 3, Eigen::Dynamic> by_last;
+  };
+  void Add(const Rows& rows, const Eigen::Vector3d& weight);
 
   // Factorises the band and the path's own scalars, and gives the flock's share: matrix += S,
   // gradient += g of the reduced system. False when the system is not positive definite.
@@ -66,6 +87,18 @@ class ArrowSystem {
   // After Reduce: the step of the path (n values, then its own scalars) for a step of the flock's
   // unknowns, and what the quadratic model of this path then falls by (own share).
   Eigen::VectorXd BackSubstitute(const Eigen::VectorXd& shared_step) const;
+
+  // Adds the matrix times x: x and y are the path's unknowns and its own scalars, `shared` and
+  // `out` the flock's. (Instantiated for the counts of coupled_flock.h.)
+  template <int Count>
+  void Multiply(const Eigen::Ref<const Columns<Count>>& x, const Columns<Count>& shared,
+                Eigen::Ref<Columns<Count>> y, Columns<Count>* out) const;
+  // After Reduce: eliminates the path and its own scalars from other right-hand sides in place and
+  // adds the flock's share to `shared`; and with the flock's solution, solves for them.
+  template <int Count>
+  void Eliminate(Eigen::Ref<Columns<Count>> x, Columns<Count>* shared) const;
+  template <int Count>
+  void Substitute(const Columns<Count>& shared, Eigen::Ref<Columns<Count>> x) const;
 
   // After Reduce(0): covariances, given that of the flock's unknowns.
   struct Posterior {

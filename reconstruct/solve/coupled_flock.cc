@@ -16,41 +16,29 @@ namespace {
 constexpr double kMargin = 2;  // beyond reach, so that a frozen neighbourhood stays whole [m]
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-7, kMostDamping = 1e6;
 constexpr double kEnough = 0.1;  // fall of the cost that counts, for each animal
+constexpr GradientStop kStepStop{.share = 1e-3, .most = 200};
 
 }  // namespace
 
-CoupledFlock::CoupledFlock(const BatchModel& model, std::vector<int> moving,
-                           std::vector<Bird>* birds, Eigen::VectorXd* shared)
-    : model_(model),
-      moving_(std::move(moving)),
-      birds_(*birds),
-      shared_(*shared),
-      place_(birds->size(), -1),
-      column_(birds->size()),
-      system_({}, 0) {
+CoupledFlock::CoupledFlock(const BatchModel& model, std::vector<Bird>* birds,
+                           Eigen::VectorXd* shared)
+    : model_(model), birds_(*birds), shared_(*shared) {
   std::size_t lines = 0;
+  Eigen::Index unknowns = 0;
   for (std::size_t i = 0; i < birds_.size(); ++i) {
     const Bird& bird = birds_[i];
     first_line_.push_back(lines);
     lines += static_cast<std::size_t>(bird.knots);
+    place_.push_back(unknowns);
+    unknowns += bird.unknowns() + kOwnUnknowns;
     const std::size_t end = static_cast<std::size_t>(bird.first_knot + bird.knots);
     if (present_.size() < end) present_.resize(end);
     for (int k = 0; k < bird.knots; ++k) {
       present_[static_cast<std::size_t>(bird.first_knot + k)].push_back(static_cast<int>(i));
     }
   }
-  std::vector<int> widths(present_.size() + 2);
-  for (std::size_t m = 0; m < moving_.size(); ++m) {
-    const auto i = static_cast<std::size_t>(moving_[m]);
-    place_[i] = static_cast<int>(m);
-    for (int c = 0; c < birds_[i].knots + 2; ++c) {
-      int& width = widths[static_cast<std::size_t>(birds_[i].first_knot + c)];
-      column_[i].push_back(width);
-      width += 3;
-    }
-  }
+  place_.push_back(unknowns);
   lines_.resize(lines);
-  neighbours_.resize(lines);
   Vec3d sum;
   for (const Knot& s : States()) sum += s.x;
   usual_log_speed_ = shared_[kFlockLogSpeed];
@@ -59,7 +47,7 @@ CoupledFlock::CoupledFlock(const BatchModel& model, std::vector<int> moving,
                               static_cast<double>(present_.size()) * model_.knot_interval);
   forces.up_in_cam = model_.up_in_cam;
   usual_ = forces.unknowns;
-  system_ = TimeSystem(widths, ForceBorder() + forces.size());
+  for (const Bird& bird : birds_) animals_.emplace_back(bird.unknowns(), kOwnUnknowns, border());
   Relinearize();
 }
 
@@ -75,57 +63,47 @@ std::vector<CoupledFlock::Knot> CoupledFlock::States() const {
   return states;
 }
 
-std::size_t CoupledFlock::LineOf(int bird, int time) const {
-  const auto i = static_cast<std::size_t>(bird);
-  return first_line_[i] + static_cast<std::size_t>(time - birds_[i].first_knot);
-}
-
 void CoupledFlock::Relinearize() {
-  for (const int i : moving_) {
-    Bird& bird = birds_[static_cast<std::size_t>(i)];
+  for (Bird& bird : birds_) {
     double sum = 0;
     for (std::size_t k = 2; k < bird.path.size(); k += 3) sum += bird.path[k];
     bird.reference_depth = std::exp(sum * 3 / static_cast<double>(bird.path.size()));
   }
   const std::vector<Knot> states = States();
   const double reach = forces.Reach() + kMargin;
-  for (std::vector<int>& list : neighbours_) list.clear();
+  near_.assign(lines_.size(), {});
   for (std::size_t g = 0; g < present_.size(); ++g) {
-    std::vector<int> order = present_[g];
-    const auto line = [&](int i) { return LineOf(i, static_cast<int>(g)); };
+    std::vector<std::size_t> order;
+    for (const int animal : present_[g]) {
+      const auto i = static_cast<std::size_t>(animal);
+      order.push_back(first_line_[i] + g - static_cast<std::size_t>(birds_[i].first_knot));
+    }
     std::stable_sort(order.begin(), order.end(),
-                     [&](int i, int j) { return states[line(i)].x.x < states[line(j)].x.x; });
+                     [&](std::size_t a, std::size_t b) { return states[a].x.x < states[b].x.x; });
     for (std::size_t a = 0; a < order.size(); ++a) {
       for (std::size_t b = a + 1; b < order.size(); ++b) {
-        const Vec3d dx = states[line(order[b])].x - states[line(order[a])].x;
+        const Vec3d dx = states[order[b]].x - states[order[a]].x;
         if (dx.x > reach) break;
         if (Norm(dx) > reach) continue;
-        neighbours_[line(order[a])].push_back(order[b]);
-        neighbours_[line(order[b])].push_back(order[a]);
+        near_[order[a]].push_back(order[b]);
+        near_[order[b]].push_back(order[a]);
       }
     }
   }
-  for (std::vector<int>& list : neighbours_) std::sort(list.begin(), list.end());
+  for (std::vector<std::size_t>& list : near_) std::sort(list.begin(), list.end());
 }
 
-std::vector<Offset> CoupledFlock::OffsetsOf(std::size_t bird, int knot,
-                                            const std::vector<Knot>& states) const {
-  const int time = birds_[bird].first_knot + knot;
-  const std::size_t line = first_line_[bird] + static_cast<std::size_t>(knot);
-  std::vector<Offset> offsets;
-  for (const int j : neighbours_[line]) {
-    const Knot& other = states[LineOf(j, time)];
-    offsets.push_back({other.x - states[line].x, other.v - states[line].v});
+void CoupledFlock::Hear(std::size_t line, double reach, const std::vector<Knot>& states,
+                        Heard* heard) const {
+  heard->offsets.clear();
+  heard->lines.clear();
+  const Knot& own = states[line];
+  for (const std::size_t other : near_[line]) {
+    const Vec3d dx = states[other].x - own.x;
+    if (Dot(dx, dx) > reach * reach) continue;
+    heard->offsets.push_back({dx, states[other].v - own.v});
+    heard->lines.push_back(other);
   }
-  return offsets;
-}
-
-Vec3d CoupledFlock::ErrorOf(std::size_t bird, int knot, const std::vector<Knot>& states) const {
-  const Knot& s = states[first_line_[bird] + static_cast<std::size_t>(knot)];
-  const double time = (birds_[bird].first_knot + knot) * model_.knot_interval;
-  const Vec3d force = PairForce(forces, OffsetsOf(bird, knot, states), nullptr, nullptr) +
-                      SelfForce(forces, birds_[bird].own[kOwnLogSpeed], time, s.x, s.v, nullptr);
-  return (birds_[bird].reference_depth / s.z) * (s.a - force);
 }
 
 CameraMotion CoupledFlock::CameraAt(const Bird& bird, int knot) const {
@@ -139,16 +117,22 @@ double CoupledFlock::Whitening(int knot) const {
 
 double CoupledFlock::Cost() const {
   const std::vector<Knot> states = States();
-  const double rho = noise.Correlation(model_.knot_interval);
+  const double rho = noise.Correlation(model_.knot_interval), reach = forces.Reach();
+  Heard heard;
   double cost = SharedPriors(model_, shared_, nullptr, nullptr) + ForcePriors(nullptr, nullptr);
-  for (const int bird : moving_) {
-    const auto i = static_cast<std::size_t>(bird);
+  for (std::size_t i = 0; i < birds_.size(); ++i) {
     ForEachRow(model_, birds_[i], shared_, false, [&](Term term, const ResidualRow& row) {
       if (term != Term::kAcceleration) cost += RobustCost(term, row.residual);
     });
     Vec3d before;
     for (int k = 0; k < birds_[i].knots; ++k) {
-      const Vec3d error = ErrorOf(i, k, states);
+      const std::size_t line = first_line_[i] + static_cast<std::size_t>(k);
+      const Knot& s = states[line];
+      const double time = (birds_[i].first_knot + k) * model_.knot_interval;
+      Hear(line, reach, states, &heard);
+      const Vec3d force = PairForce(forces, heard.offsets, nullptr, nullptr) +
+                          SelfForce(forces, birds_[i].own[kOwnLogSpeed], time, s.x, s.v, nullptr);
+      const Vec3d error = (birds_[i].reference_depth / s.z) * (s.a - force);
       const Vec3d row = Whitening(k) * (k == 0 ? error : error - rho * before);
       for (int axis = 0; axis < 3; ++axis) {
         cost += RobustCost(Term::kAcceleration, Component(row, axis));
@@ -181,13 +165,12 @@ double CoupledFlock::ForcePriors(Eigen::MatrixXd* matrix, Eigen::VectorXd* gradi
     (*gradient)[j] -= r / sd;
   };
   const Eigen::VectorXd off = forces.unknowns - usual_;
-  const int first = ForceBorder();
+  const int first = model_.shared();
   for (int k = 0; k < kForceScalars; ++k) {
     const bool told = k != kLogDrive && k != kLogGoal && k != kLogRange;  // by what birds are
     const double sd = (told ? tightness : 1) * kSd[static_cast<std::size_t>(k)];
     if (IsLength(k)) {
-      add(first + k, FlockBorder() + kFlockLogSpeed,
-          off[k] - (shared_[kFlockLogSpeed] - usual_log_speed_), sd);
+      add(first + k, kFlockLogSpeed, off[k] - (shared_[kFlockLogSpeed] - usual_log_speed_), sd);
     } else {
       add(first + k, -1, off[k], sd);
     }
@@ -202,23 +185,14 @@ double CoupledFlock::ForcePriors(Eigen::MatrixXd* matrix, Eigen::VectorXd* gradi
   return cost;
 }
 
-void CoupledFlock::Move(const TimeSystem::Step& step) {
-  for (const int moving : moving_) {
-    const auto i = static_cast<std::size_t>(moving);
-    Bird& bird = birds_[i];
-    for (int c = 0; c < bird.knots + 2; ++c) {
-      const auto control = static_cast<std::size_t>(c);
-      const Eigen::VectorXd& at = step.at[static_cast<std::size_t>(bird.first_knot + c)];
-      for (int a = 0; a < 3; ++a) {
-        bird.path[3 * control + static_cast<std::size_t>(a)] += at[column_[i][control] + a];
-      }
-    }
-    for (int a = 0; a < kOwnUnknowns; ++a) {
-      bird.own[static_cast<std::size_t>(a)] += step.border[BorderOf(i, a)];
-    }
+void CoupledFlock::Move(const Eigen::VectorXd& step) {
+  Eigen::Index at = 0;
+  for (Bird& bird : birds_) {
+    for (double& x : bird.path) x += step[at++];
+    for (double& x : bird.own) x += step[at++];
   }
-  shared_ += step.border.segment(FlockBorder(), model_.shared());
-  forces.unknowns += step.border.tail(forces.size());
+  shared_ += step.segment(at, model_.shared());
+  forces.unknowns += step.tail(forces.size());
 }
 
 void CoupledFlock::FitForces(int max_iterations) {
@@ -226,13 +200,14 @@ void CoupledFlock::FitForces(int max_iterations) {
   for (int iteration = 0; iteration < max_iterations && damping < kMostDamping; ++iteration) {
     Linearize();
     const int n = forces.size();
-    Eigen::MatrixXd matrix = system_.Corner().bottomRightCorner(n, n);
+    Eigen::MatrixXd matrix = priors_.bottomRightCorner(n, n);
+    for (const ArrowSystem& animal : animals_) matrix += animal.corner().bottomRightCorner(n, n);
     matrix.diagonal() *= 1 + damping;
     const Eigen::VectorXd before = forces.unknowns;
-    forces.unknowns -= matrix.llt().solve(system_.BorderGradient().tail(n));
+    forces.unknowns -= matrix.llt().solve(gradient_.tail(n));
     const double candidate = Cost();
     if (candidate < cost) {
-      const bool still = cost - candidate < kEnough * static_cast<double>(moving_.size());
+      const bool still = cost - candidate < kEnough * static_cast<double>(birds_.size());
       cost = candidate;
       damping = std::max(0.1 * damping, kLeastDamping);
       if (still) return;
@@ -250,16 +225,16 @@ bool CoupledFlock::Minimize(int max_iterations) {
     if (damping > kMostDamping) return true;
     if (!linearized) Linearize();
     linearized = true;
-    if (!system_.Factorise(damping, ArrowSystem::kDepthMetric)) {
+    if (!Factorise(damping)) {
       damping *= 10;
       continue;
     }
     const std::vector<Bird> birds = birds_;
     const Eigen::VectorXd shared = shared_, unknowns = forces.unknowns;
-    Move(system_.Solve());
+    Move(Solve<1>(-gradient_, kStepStop));
     const double candidate = Cost();
     if (candidate < cost) {
-      const bool still = cost - candidate < kEnough * static_cast<double>(moving_.size());
+      const bool still = cost - candidate < kEnough * static_cast<double>(birds_.size());
       cost = candidate;
       damping = std::max(0.1 * damping, kLeastDamping);
       linearized = false;
@@ -272,6 +247,11 @@ bool CoupledFlock::Minimize(int max_iterations) {
     }
   }
   return false;
+}
+
+const Eigen::VectorXd& CoupledFlock::Gradient() {
+  Linearize();
+  return gradient_;
 }
 
 }  // namespace flocklift::internal

@@ -5,7 +5,9 @@
 // smoothness: what an acceleration has beyond the force is a Markov process,
 //   e_i = z_ref (a_i - F_i) / z_i          (F: flock_forces.h; z_ref as in acceleration.h)
 // which couples all animals: weak-constraint 4D-Var. Paths and the unknowns of the forces are found
-// together, by Gauss-Newton with Levenberg's damping on one system banded in time (time_system.h).
+// together, by Gauss-Newton with Levenberg's damping. A step is solved for by conjugate gradients
+// (conjugate_gradients.h), preconditioned by every animal as if the others stood still
+// (arrow_system.h): its cost is linear in the animals and in those that each one hears.
 // Who hears whom is frozen between calls of Relinearize. Forces bring no scale of their own: their
 // lengths are known, a little, as times of flight.
 // (Tremolet, "Accounting for an imperfect model in 4D-Var", 2006)
@@ -13,28 +15,26 @@
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_COUPLED_FLOCK_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_COUPLED_FLOCK_H_
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "reconstruct/cost_functions/markov.h"
+#include "reconstruct/solve/arrow_system.h"
 #include "reconstruct/solve/batch_problem.h"
+#include "reconstruct/solve/conjugate_gradients.h"
 #include "reconstruct/solve/flock_forces.h"
-#include "reconstruct/solve/time_system.h"
 
 namespace flocklift::internal {
 
 class CoupledFlock {
  public:
-  // All stay the caller's; the birds in `moving`, and shared, move while solving. The others are
-  // heard as they are.
-  CoupledFlock(const BatchModel& model, std::vector<int> moving, std::vector<Bird>* birds,
-               Eigen::VectorXd* shared);
+  // All stay the caller's; the birds, and shared, move while solving.
+  CoupledFlock(const BatchModel& model, std::vector<Bird>* birds, Eigen::VectorXd* shared);
 
   FlockForces forces;
   MarkovProcess noise{.sd = 2, .time = 0.7};  // of the acceleration beyond the forces [m/s^2, s]
-  double tightness = 1;       // of what is known of the forces of usual birds, in their sds
-  bool flock_is_free = true;  // do the flock's unknowns and those of the forces move?
+  double tightness = 1;  // of what is known of the forces of usual birds, in their sds
 
   // Neighbours are those that are near now, and accelerations count at the depths of now.
   void Relinearize();
@@ -45,14 +45,22 @@ class CoupledFlock {
   // Paths and forces. Returns whether the cost stands still.
   bool Minimize(int max_iterations);
 
-  // Gradient of the cost at the present state: paths and own scalars animal by animal, then the
-  // flock's, then the forces'.
-  Eigen::VectorXd Gradient();
+  // Vectors of all unknowns: paths and own scalars animal by animal, then the flock's, then the
+  // forces'. Gradient of the cost at the present state, and after it the Gauss-Newton matrix there
+  // times vectors.
+  const Eigen::VectorXd& Gradient();
+  template <int Count>
+  void Multiply(const Columns<Count>& x, Columns<Count>* y) const;
+  // After Gradient: the matrix with Levenberg's damping is factorised as far as the preconditioner
+  // goes (false where that is not positive definite); then solves.
+  bool Factorise(double damping);
+  template <int Count>
+  Columns<Count> Solve(const Columns<Count>& b, const GradientStop& stop) const;
 
   // The sd of the noise by MacKay's fixed point (spread_estimator.h), at the solution.
   double EstimateNoise();
-  // Posterior at the solution: sd of the log depth at every sighting of the moving animals, and of
-  // their mean. Empty where the system is singular.
+  // Posterior at the solution: sd of the log depth at every sighting, that of all depths' mean
+  // taken out, and of the mean. Empty where the system is singular.
   struct DepthSds {
     std::vector<std::vector<double>> at;  // by animal
     double mean = 0;
@@ -60,66 +68,74 @@ class CoupledFlock {
   DepthSds Depths();
 
  private:
+  static constexpr int kSamples = 8;  // at once
+
   struct Knot {  // state of an animal at a knot
     Vec3d x, v, a;
     double z = 1;
   };
   struct Line {  // linearised error of one animal at one knot
     Vec3d error;
-    Eigen::Matrix<double, 6, 9> state;            // of (x, v) by the three control points
-    Eigen::Matrix<double, 3, 9> own;              // of the error by them
-    std::vector<Eigen::Matrix<double, 3, 9>> by;  // of the error by the neighbours' control points
+    Eigen::Matrix<double, 6, 9> state;  // of (x, v) by the three control points
+    Eigen::Matrix<double, 3, 9> own;    // of the error by them
     Eigen::Vector3d by_log_speed;
     Eigen::Matrix<double, 3, kForceScalars> by_forces;
     Eigen::Matrix3d by_target;
-    Vec3d weight{1, 1, 1};  // Huber's
+    Eigen::Vector3d weight{1, 1, 1};  // Huber's, of the whitened row that ends here
   };
-  // Derivatives of three errors: by animals' unknowns at four times on end, and by the border.
-  struct Rows {
-    int first_time = 0;
-    std::array<std::vector<int>, TimeSystem::kSpan> columns;  // of each animal's three unknowns
-    std::array<Eigen::Matrix<double, 3, Eigen::Dynamic>, TimeSystem::kSpan> by;
-    std::vector<int> border;
-    Eigen::Matrix<double, 3, Eigen::Dynamic> by_border;
-  };
+  template <int Count>
+  using Errors = std::vector<Eigen::Matrix<double, 3, Count>>;  // of every line
 
   std::vector<Knot> States() const;
-  std::vector<Offset> OffsetsOf(std::size_t bird, int knot, const std::vector<Knot>& states) const;
-  Vec3d ErrorOf(std::size_t bird, int knot, const std::vector<Knot>& states) const;
+  struct Heard {  // within reach of an animal at a knot, by increasing animal
+    std::vector<Offset> offsets;
+    std::vector<std::size_t> lines;
+  };
+  void Hear(std::size_t line, double reach, const std::vector<Knot>& states, Heard* heard) const;
   CameraMotion CameraAt(const Bird& bird, int knot) const;
   double Whitening(int knot) const;  // of the row that ends at this knot of its animal
-  std::size_t LineOf(int bird, int time) const;
-  bool Moves(int bird) const { return !column_[static_cast<std::size_t>(bird)].empty(); }
   double ForcePriors(Eigen::MatrixXd* matrix, Eigen::VectorXd* gradient) const;
-  void Move(const TimeSystem::Step& step);
+  void Move(const Eigen::VectorXd& step);
+  int border() const { return model_.shared() + forces.size(); }
 
   // coupled_rows.cc
   void Linearize();
-  void LinearizeLine(std::size_t bird, int knot, const std::vector<Knot>& states);
-  // factor times the error at the knot, minus as much of rho times that at the knot before.
-  Rows RowsOf(std::size_t bird, int knot, double factor, double rho) const;
-  void AddRows(const Rows& rows, const Vec3d& residual, const Vec3d& weight);
-  void AddBatchRow(std::size_t bird, const ResidualRow& row, double weight);
-  int BorderOf(std::size_t bird, int index) const;  // of ResidualRow's border
-  int FlockBorder() const { return kOwnUnknowns * static_cast<int>(moving_.size()); }
-  int ForceBorder() const { return FlockBorder() + model_.shared(); }
+  void LinearizeLine(std::size_t bird, int knot, const std::vector<Knot>& states, double reach);
+  ArrowSystem::Rows RowsOf(std::size_t bird, int knot) const;
 
-  // coupled_posterior.cc
-  Vec3d VarianceOf(const Rows& rows, const TimeSystem::Posterior& posterior) const;
+  // coupled_system.cc: how the errors change with the unknowns, by the animal's own (border
+  // included) and by those of its neighbours; whitened, weighted and whitened back; and the way
+  // back from errors to unknowns.
+  template <int Count>
+  void ChangesOf(const Columns<Count>& x, Errors<Count>* own, Errors<Count>* heard) const;
+  template <int Count>
+  void Weigh(Errors<Count>* errors) const;
+  template <int Count>
+  void PullOwn(const Errors<Count>& errors, Columns<Count>* y) const;
+  template <int Count>
+  void PullHeard(const Errors<Count>& errors, Columns<Count>* y) const;
+
+  // coupled_posterior.cc: draws from the posterior, side by side.
+  Columns<kSamples> Draw(std::uint64_t seed) const;
 
   const BatchModel& model_;
-  std::vector<int> moving_;  // by increasing animal
   std::vector<Bird>& birds_;
   Eigen::VectorXd& shared_;
-  std::vector<std::size_t> first_line_;       // of every animal
-  std::vector<int> place_;                    // of every animal that moves, among those
-  std::vector<std::vector<int>> column_;      // of every control point that moves, in its block
-  std::vector<std::vector<int>> present_;     // animals at every knot of the sequence
-  std::vector<std::vector<int>> neighbours_;  // of every line, by increasing animal
-  Eigen::VectorXd usual_;                     // unknowns of the forces of usual birds,
-  double usual_log_speed_ = 0;                // which fly that fast
+  std::vector<std::size_t> first_line_;    // of every animal
+  std::vector<Eigen::Index> place_;        // of every animal's first unknown, then of the border
+  std::vector<std::vector<int>> present_;  // animals at every knot of the sequence
+  std::vector<std::vector<std::size_t>> near_;  // lines that each line may come to hear
+  Eigen::VectorXd usual_;                       // unknowns of the forces of usual birds,
+  double usual_log_speed_ = 0;                  // which fly that fast
   std::vector<Line> lines_;
-  TimeSystem system_;
+  std::vector<std::size_t> first_heard_;  // of every line, in:
+  std::vector<std::size_t> heard_;        // lines of its neighbours, by increasing animal
+  std::vector<Matrix36> by_heard_;        // of its error, by (x, v) of each
+  std::vector<ArrowSystem> animals_;      // each as if the others stood still
+  Eigen::MatrixXd priors_;                // of the border
+  Eigen::VectorXd gradient_, diagonal_;
+  double damping_ = 0;
+  Eigen::LLT<Eigen::MatrixXd> border_factor_;
 };
 
 }  // namespace flocklift::internal

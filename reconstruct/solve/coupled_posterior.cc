@@ -2,68 +2,91 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What the flock with forces does not know at its solution: of depths, and of its own errors, from
-// which the noise is estimated.
+// which the noise is estimated. By draws from the posterior N(0, M^-1): every whitened residual is
+// moved by a normal number and the system solved for what that does to the unknowns,
+//   M x = J^T W^1/2 e,   e ~ N(0, 1)
+// (Papandreou and Yuille, "Gaussian sampling by local perturbations", 2010). The numbers are
+// counted, so that the same come up each time.
 
 #include <algorithm>
 #include <cmath>
 
 #include "reconstruct/solve/coupled_flock.h"
 #include "reconstruct/solve/coupled_point.h"
+#include "simulate/core/rng.h"
 
 namespace flocklift::internal {
 namespace {
+
+// Draws need not be more exact than their number makes variances.
+constexpr GradientStop kDrawStop{.share = 1e-3, .most = 200};
+constexpr std::uint64_t kNoiseSeed = 1, kDepthSeed = 2;
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-// Of three errors, each by itself.
-Vec3d CoupledFlock::VarianceOf(const Rows& rows, const TimeSystem::Posterior& posterior) const {
-  using Rows3 = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-  Rows3 border = Rows3::Zero(3, system_.border());
-  for (std::size_t b = 0; b < rows.border.size(); ++b) {
-    border.col(rows.border[b]) += rows.by_border.col(static_cast<Eigen::Index>(b));
-  }
-  std::array<Rows3, TimeSystem::kSpan> by;
-  for (int c = 0; c < TimeSystem::kSpan; ++c) {
-    const std::vector<int>& columns = rows.columns[Index(c)];
-    if (columns.empty()) continue;
-    by[Index(c)] = Rows3::Zero(3, system_.width(rows.first_time + c));
-    for (std::size_t n = 0; n < columns.size(); ++n) {
-      by[Index(c)].middleCols<3>(columns[n]) =
-          rows.by[Index(c)].middleCols<3>(3 * static_cast<Eigen::Index>(n));
+Columns<CoupledFlock::kSamples> CoupledFlock::Draw(std::uint64_t seed) const {
+  using Row = Eigen::Matrix<double, 1, kSamples>;
+  Columns<kSamples> pulled = Columns<kSamples>::Zero(gradient_.size(), kSamples);
+  Errors<kSamples> errors(lines_.size());
+  const double rho = noise.Correlation(model_.knot_interval);
+  const auto normals = [](Rng& rng) {
+    Row row;
+    for (double& x : row) x = rng.Normal();
+    return row;
+  };
+  for (std::size_t i = 0; i < birds_.size(); ++i) {
+    const Bird& bird = birds_[i];
+    Rng rng(seed, i);
+    ForEachRow(model_, bird, shared_, true, [&](Term term, const ResidualRow& row) {
+      if (term == Term::kAcceleration) return;
+      const Row e = std::sqrt(RobustWeight(term, row.residual)) * normals(rng);
+      const int count = std::min<int>(ArrowSystem::kBand, bird.unknowns() - row.first);
+      for (int a = 0; a < count; ++a) {
+        pulled.row(place_[i] + row.first + a) += row.path[Index(a)] * e;
+      }
+      for (int c = 0; c < row.border_count; ++c) {
+        const auto [index, derivative] = row.border[Index(c)];
+        const Eigen::Index at = index < kOwnUnknowns ? place_[i] + bird.unknowns() + index
+                                                     : place_.back() + index - kOwnUnknowns;
+        pulled.row(at) += derivative * e;
+      }
+    });
+    for (int k = 0; k < bird.knots; ++k) {
+      const std::size_t at = first_line_[i] + Index(k);
+      for (int axis = 0; axis < 3; ++axis) {
+        errors[at].row(axis) = Whitening(k) * std::sqrt(lines_[at].weight[axis]) * normals(rng);
+      }
+      if (k > 0) errors[at - 1] -= rho * errors[at];
     }
-    border.noalias() -= by[Index(c)] * posterior.to_border[Index(rows.first_time + c)];
   }
-  Eigen::Vector3d variance = (border * posterior.border).cwiseProduct(border).rowwise().sum();
-  for (int c = 0; c < TimeSystem::kSpan; ++c) {
-    for (int d = 0; d <= c && by[Index(c)].size() > 0; ++d) {
-      const Rows3& other = by[Index(c - d)];
-      if (other.size() == 0) continue;
-      const Eigen::MatrixXd& block = posterior.band[Index(rows.first_time + c)][Index(d)];
-      variance +=
-          (d == 0 ? 1 : 2) * (by[Index(c)] * block).cwiseProduct(other).rowwise().sum().eval();
-    }
-  }
-  return {variance[0], variance[1], variance[2]};
+  PullOwn<kSamples>(errors, &pulled);
+  PullHeard<kSamples>(errors, &pulled);
+  const Eigen::LLT<Eigen::MatrixXd> priors(priors_);
+  Columns<kSamples> e(border(), kSamples);
+  Rng rng(seed, birds_.size());
+  for (Eigen::Index k = 0; k < border(); ++k) e.row(k) = normals(rng);
+  pulled.bottomRows(border()) += priors.matrixL() * e;
+  return Solve<kSamples>(pulled, kDrawStop);
 }
 
 double CoupledFlock::EstimateNoise() {
   Linearize();
-  if (!system_.Factorise(0, 0)) return noise.sd;
-  const TimeSystem::Posterior posterior = system_.Covariance();
+  if (!Factorise(0)) return noise.sd;
+  Errors<kSamples> changes, heard;
+  ChangesOf<kSamples>(Draw(kNoiseSeed), &changes, &heard);
   constexpr double kInterval = 0.5;  // between the errors that are looked at [s]
   constexpr double kLeastSeen = 0.05;
   const int stride = std::max(1, static_cast<int>(std::lround(kInterval / model_.knot_interval)));
   double squares = 0, variances = 0, count = 0;
-  for (const int moving : moving_) {
-    const std::size_t i = Index(moving);
+  for (std::size_t i = 0; i < birds_.size(); ++i) {
     for (int k = 0; k < birds_[i].knots; k += stride) {
-      const Vec3d variance = VarianceOf(RowsOf(i, k, 1, 0), posterior);
+      const std::size_t at = first_line_[i] + Index(k);
+      variances += (changes[at] + heard[at]).squaredNorm() / kSamples;
       for (int axis = 0; axis < 3; ++axis) {
-        const double e = Component(lines_[first_line_[i] + Index(k)].error, axis);
+        const double e = Component(lines_[at].error, axis);
         squares += RobustWeight(Term::kAcceleration, e / noise.sd) * e * e;
-        variances += Component(variance, axis);
         ++count;
       }
     }
@@ -73,38 +96,40 @@ double CoupledFlock::EstimateNoise() {
 }
 
 CoupledFlock::DepthSds CoupledFlock::Depths() {
+  constexpr int kDraws = 4;  // of kSamples each
   Linearize();
-  if (!system_.Factorise(0, 0)) return {};
-  const TimeSystem::Posterior posterior = system_.Covariance();
+  if (!Factorise(0)) return {};
+  double rows = 0;
+  for (const Bird& bird : birds_) rows += static_cast<double>(bird.places.size());
   DepthSds sds;
   sds.at.resize(birds_.size());
-  double rows = 0;
-  for (const int i : moving_) rows += static_cast<double>(birds_[Index(i)].places.size());
-  std::vector<Eigen::VectorXd> mean;
-  for (int t = 0; t < system_.times(); ++t) {
-    mean.push_back(Eigen::VectorXd::Zero(system_.width(t)));
-  }
-  for (const int moving : moving_) {
-    const std::size_t i = Index(moving);
-    for (const Bird::Place& place : birds_[i].places) {
-      double variance = 0;
-      Eigen::VectorXd border = Eigen::VectorXd::Zero(system_.border());
-      const auto column = [&](int a) { return column_[i][Index(place.interval + a)] + 2; };
-      for (int a = 0; a < TimeSystem::kSpan; ++a) {
-        const std::size_t time = Index(birds_[i].first_knot + place.interval + a);
-        const double weight = place.weights[Index(a)];
-        mean[time][column(a)] += weight / rows;
-        border -= weight * posterior.to_border[time].row(column(a)).transpose();
-        for (int b = 0; b <= a; ++b) {
-          variance += (a == b ? 1 : 2) * weight * place.weights[Index(b)] *
-                      posterior.band[time][Index(a - b)](column(a), column(b));
-        }
+  double of_mean = 0;
+  using Row = Eigen::Matrix<double, 1, kSamples>;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const Columns<kSamples> x = Draw(kDepthSeed + static_cast<std::uint64_t>(draw));
+    const auto depth = [&](std::size_t i, const Bird::Place& place) {
+      Row sum = Row::Zero();
+      for (int a = 0; a < 4; ++a) {
+        sum += place.weights[Index(a)] * x.row(place_[i] + 3 * (place.interval + a) + 2);
       }
-      variance += border.dot(posterior.border * border);
-      sds.at[i].push_back(std::sqrt(std::max(variance, 0.0)));
+      return sum;
+    };
+    Row mean = Row::Zero();
+    for (std::size_t i = 0; i < birds_.size(); ++i) {
+      sds.at[i].resize(birds_[i].places.size());
+      for (const Bird::Place& place : birds_[i].places) mean += depth(i, place) / rows;
     }
+    for (std::size_t i = 0; i < birds_.size(); ++i) {
+      for (std::size_t k = 0; k < sds.at[i].size(); ++k) {
+        sds.at[i][k] += (depth(i, birds_[i].places[k]) - mean).squaredNorm() / (kDraws * kSamples);
+      }
+    }
+    of_mean += mean.squaredNorm() / (kDraws * kSamples);
   }
-  sds.mean = std::sqrt(system_.Variance(mean));
+  for (std::vector<double>& animal : sds.at) {
+    for (double& sd : animal) sd = std::sqrt(sd);
+  }
+  sds.mean = std::sqrt(of_mean);
   return sds;
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -21,7 +20,6 @@ using namespace internal;  // NOLINT: the method's own parts
 
 constexpr int kIterations = 6;    // of one round, at most
 constexpr double kUnsure = 1.35;  // errors over what the linearised posterior says, as measured
-constexpr std::size_t kMostAtOnce = 40;  // animals in one system: its cost per animal grows as N^2
 
 struct Flock {
   std::vector<Bird> birds;
@@ -30,35 +28,10 @@ struct Flock {
   double cost = 0;
 };
 
-// Animals that are solved for at once: all, or in a large flock those beside each other.
-std::vector<std::vector<int>> Groups(const std::vector<Bird>& birds) {
-  std::vector<int> order(birds.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto side = [&birds](int i) {
-    const std::vector<double>& path = birds[static_cast<std::size_t>(i)].path;
-    double sum = 0;
-    for (std::size_t k = 0; k < path.size(); k += 3) sum += path[k];
-    return sum / static_cast<double>(path.size());
-  };
-  const std::size_t count = (birds.size() + kMostAtOnce - 1) / kMostAtOnce;
-  if (count > 1) {
-    std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return side(i) < side(j); });
-  }
-  std::vector<std::vector<int>> groups(count);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    groups[k * count / order.size()].push_back(order[k]);
-  }
-  for (std::vector<int>& group : groups) std::sort(group.begin(), group.end());
-  // The one in the middle hears most of the others: it finds the forces.
-  std::swap(groups[0], groups[count / 2]);
-  return groups;
-}
-
-// Forces and the paths of a group from where they are, with the noise that they leave from round to
+// Forces and paths from where they are, with the noise that they leave from round to
 // round, at first as much as the batch method's accelerations.
-void Follow(const DynamicsOptions& options, const BatchModel& model, const std::vector<int>& group,
-            Flock* flock) {
-  CoupledFlock coupled(model, group, &flock->birds, &flock->shared);
+void Follow(const DynamicsOptions& options, const BatchModel& model, Flock* flock) {
+  CoupledFlock coupled(model, &flock->birds, &flock->shared);
   coupled.noise = {std::max(options.noise_sd, model.spreads.acceleration.sd), options.noise_time};
   coupled.FitForces(2 * kIterations);
   for (int round = 0; round < options.rounds; ++round) {
@@ -76,10 +49,9 @@ void Follow(const DynamicsOptions& options, const BatchModel& model, const std::
 
 // The same, but at first with the forces of usual birds: depths that are wrong make all of a
 // neighbour's influence look weaker than it is, and weak forces leave them wrong.
-void FollowUsual(const BatchModel& model, const std::vector<int>& group, const MarkovProcess& noise,
-                 Flock* flock) {
+void FollowUsual(const BatchModel& model, const MarkovProcess& noise, Flock* flock) {
   constexpr double kTight = 0.1;
-  CoupledFlock coupled(model, group, &flock->birds, &flock->shared);
+  CoupledFlock coupled(model, &flock->birds, &flock->shared);
   coupled.noise = {2 * noise.sd, noise.time};
   coupled.tightness = kTight;
   coupled.FitForces(2 * kIterations);
@@ -95,28 +67,15 @@ void FollowUsual(const BatchModel& model, const std::vector<int>& group, const M
   flock->cost = coupled.Cost();
 }
 
-// Goes on with what is known of forces and noise.
-void Polish(const BatchModel& model, const std::vector<int>& group, bool first, Flock* flock,
-            std::optional<DepthPosterior>* posterior) {
-  CoupledFlock coupled(model, group, &flock->birds, &flock->shared);
+// Goes on with what is known of forces and noise. Returns how sure depths are then.
+DepthPosterior Polish(const BatchModel& model, Flock* flock) {
+  CoupledFlock coupled(model, &flock->birds, &flock->shared);
   coupled.forces.unknowns = flock->forces;
   coupled.noise = flock->noise;
-  coupled.flock_is_free = first;
   coupled.Relinearize();
   coupled.Minimize(kIterations);
   flock->forces = coupled.forces.unknowns;
-  if (posterior == nullptr) return;
-  const CoupledFlock::DepthSds sds = coupled.Depths();
-  if (sds.at.empty()) return;
-  if (!*posterior) *posterior = DepthPosterior(flock->birds.size());
-  // Animals that stand still meanwhile hold the scale.
-  const double common = group.size() == flock->birds.size() ? sds.mean * sds.mean : 0;
-  for (const int i : group) {
-    for (const double sd : sds.at[static_cast<std::size_t>(i)]) {
-      (**posterior)[static_cast<std::size_t>(i)].push_back(
-          std::sqrt(std::max(sd * sd - common, 0.0)));
-    }
-  }
+  return coupled.Depths().at;
 }
 
 // Where the common scale drifts while forces are found, it is not because forces know it: it stays
@@ -139,29 +98,26 @@ void KeepScale(const std::vector<Bird>& before, const BatchModel& model, Flock* 
   for (int k = model.depth.first; k < model.depth.end(); ++k) flock->shared[k] -= grown;
 }
 
-// How far the depths of two solutions are apart after one common scale: of every animal in the
-// group, halfway to what all have in common; of the others that.
-std::vector<double> Apart(const std::vector<int>& group, const std::vector<Bird>& a,
-                          const std::vector<Bird>& b) {
+// How far the depths of two solutions are apart after one common scale, by animal: halfway to what
+// all have in common.
+std::vector<double> Apart(const std::vector<Bird>& a, const std::vector<Bird>& b) {
   std::vector<double> sums(a.size()), squares(a.size()), counts(a.size());
   double sum = 0, square = 0, count = 0;
-  for (const int i : group) {
-    const auto at = static_cast<std::size_t>(i);
-    for (std::size_t k = 2; k < a[at].path.size(); k += 3) {
-      const double off = a[at].path[k] - b[at].path[k];
-      sums[at] += off;
-      squares[at] += off * off;
-      ++counts[at];
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 2; k < a[i].path.size(); k += 3) {
+      const double off = a[i].path[k] - b[i].path[k];
+      sums[i] += off;
+      squares[i] += off * off;
+      ++counts[i];
     }
-    sum += sums[at];
-    square += squares[at];
-    count += counts[at];
+    sum += sums[i];
+    square += squares[i];
+    count += counts[i];
   }
   const double mean = sum / count, common = square / count - mean * mean;
   std::vector<double> apart(a.size());
   for (std::size_t i = 0; i < apart.size(); ++i) {
-    double own = common;
-    if (counts[i] > 0) own = (squares[i] - 2 * mean * sums[i]) / counts[i] + mean * mean;
+    const double own = (squares[i] - 2 * mean * sums[i]) / counts[i] + mean * mean;
     apart[i] = std::sqrt(std::max(0.0, 0.5 * (own + common)));
   }
   return apart;
@@ -174,17 +130,13 @@ struct Followed {
 
 // From the batch solution on, from both starts: which is better is not seen before the end.
 Followed FollowForces(const DynamicsOptions& options, const WindowToRefine& window) {
-  const std::vector<std::vector<int>> groups = Groups(*window.birds);
   Flock fitted{*window.birds, *window.shared, {}, {}};
   Flock usual = fitted;
-  Follow(options, window.model, groups[0], &fitted);
-  FollowUsual(window.model, groups[0], fitted.noise, &usual);
+  Follow(options, window.model, &fitted);
+  FollowUsual(window.model, fitted.noise, &usual);
   Followed followed;
-  followed.apart = Apart(groups[0], fitted.birds, usual.birds);
+  followed.apart = Apart(fitted.birds, usual.birds);
   followed.flock = usual.cost < fitted.cost ? std::move(usual) : std::move(fitted);
-  for (std::size_t g = 1; g < groups.size(); ++g) {
-    Polish(window.model, groups[g], false, &followed.flock, nullptr);
-  }
   return followed;
 }
 
@@ -232,15 +184,13 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
       birds[i].own = flock.birds[i].own;
     }
     flock.birds = std::move(birds);
-    const std::vector<std::vector<int>> groups = Groups(flock.birds);
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      Polish(window.model, groups[g], g == 0, &flock, window.posterior);
-    }
+    DepthPosterior posterior = Polish(window.model, &flock);
     KeepScale(*window.birds, window.model, &flock);
     // Where two starts end apart neither is sure.
-    for (std::size_t i = 0; i < followed.apart.size() && *window.posterior; ++i) {
-      for (double& sd : (**window.posterior)[i]) sd = kUnsure * std::hypot(sd, followed.apart[i]);
+    for (std::size_t i = 0; i < posterior.size(); ++i) {
+      for (double& sd : posterior[i]) sd = kUnsure * std::hypot(sd, followed.apart[i]);
     }
+    if (!posterior.empty()) *window.posterior = std::move(posterior);
     *window.birds = flock.birds;
     *window.shared = flock.shared;
     Describe(flock, &report);

@@ -67,6 +67,68 @@ TEST(ArrowSystem, StepIsThatOfTheDenseSystem) {
   EXPECT_LT((own - dense.head(kUnknowns + kOwn)).norm(), 1e-9 * dense.norm());
 }
 
+// The same step, from the parts that take other right-hand sides, and several of these at once.
+TEST(ArrowSystem, MultipliesAndSolvesAnyRightHandSide) {
+  Both both = RandomSystem();
+  const Eigen::MatrixXd normal = both.jacobian.transpose() * both.jacobian;
+  Rng rng(8);
+  Columns<8> x(normal.rows(), 8);
+  for (double& v : x.reshaped()) v = rng.Normal();
+  const Columns<8> expected = normal * x;
+
+  Columns<8> y = Columns<8>::Zero(kUnknowns + kOwn, 8), shared = Columns<8>::Zero(kShared, 8);
+  both.arrow.Multiply<8>(x.topRows(kUnknowns + kOwn), x.bottomRows(kShared), y, &shared);
+  EXPECT_LT((y - expected.topRows(kUnknowns + kOwn)).norm(), 1e-10 * expected.norm());
+  EXPECT_LT((shared - expected.bottomRows(kShared)).norm(), 1e-10 * expected.norm());
+
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(kShared, kShared);
+  Eigen::VectorXd unused = Eigen::VectorXd::Zero(kShared);
+  ASSERT_TRUE(both.arrow.Reduce(0, &matrix, &unused));
+  both.arrow.Eliminate<8>(y, &shared);
+  const Columns<8> solved = matrix.llt().solve(shared);
+  both.arrow.Substitute<8>(solved, y);
+  EXPECT_LT((solved - x.bottomRows(kShared)).norm(), 1e-8 * x.norm());
+  EXPECT_LT((y - x.topRows(kUnknowns + kOwn)).norm(), 1e-8 * x.norm());
+}
+
+// Three at once, also where they reach beyond the path's end.
+TEST(ArrowSystem, AddsThreeResidualsAsOneByOne) {
+  Rng rng(9);
+  for (const int first : {3, kUnknowns - 9}) {
+    ArrowSystem::Rows rows;
+    rows.first = first;
+    rows.own = 1;
+    rows.by_last.resize(3, 2);
+    for (double& v : rows.path.reshaped()) v = rng.Normal();
+    for (double& v : rows.by_last.reshaped()) v = rng.Normal();
+    const Eigen::Vector3d weight(0.5, 1, 2);
+    Both one;
+    for (int r = 0; r < 3; ++r) {
+      ResidualRow row;
+      row.first = first;
+      row.residual = rows.residual[r] = rng.Normal();
+      for (int a = 0; a < 12; ++a) row.path[static_cast<std::size_t>(a)] = rows.path(r, a);
+      row.AddBorder(rows.own, rows.by_own[r] = rng.Normal());
+      row.AddBorder(kOwn + kShared - 2, rows.by_last(r, 0));
+      row.AddBorder(kOwn + kShared - 1, rows.by_last(r, 1));
+      one.Add(row, weight[r]);
+    }
+    ArrowSystem three(kUnknowns, kOwn, kShared);
+    three.Add(rows, weight);
+    EXPECT_LT((three.gradient() - one.arrow.gradient()).norm(), 1e-12);
+    EXPECT_LT((three.corner() - one.arrow.corner()).norm(), 1e-12);
+    for (int i = 0; i < kUnknowns; ++i) {
+      EXPECT_NEAR(three.Diagonal(i), one.arrow.Diagonal(i), 1e-12);
+    }
+    const Columns<1> ones = Columns<1>::Ones(kUnknowns + kOwn), last = Columns<1>::Ones(kShared);
+    Columns<1> y = 0 * ones, out = 0 * last, other = y, others = out;
+    three.Multiply<1>(ones, last, y, &out);
+    one.arrow.Multiply<1>(ones, last, other, &others);
+    EXPECT_LT((y - other).norm(), 1e-12);
+    EXPECT_LT((out - others).norm(), 1e-12);
+  }
+}
+
 // Damping multiplies the diagonal, but adds to every third unknown, the log depths.
 TEST(ArrowSystem, DampingIsMarquardtsAndLevenbergs) {
   Both both = RandomSystem();

@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <vector>
 
 #include "reconstruct/solve/coupled_flock.h"
@@ -60,118 +60,158 @@ TEST(HiddenSightings, BetterMeansByMoreThanItsError) {
   EXPECT_FALSE(internal::PredictsBetter({}, {}));
 }
 
-// All animals that `window` holds.
-std::vector<int> AllOf(const internal::WindowToRefine& window) {
-  std::vector<int> all(window.birds->size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
+// Calls with the coupled flock of a batch solution.
+template <typename Check>
+void WithFlock(const FlockSpec& spec, const BatchOptions& options, const Check& check) {
+  int asked = 0;
+  internal::SolveWindow(options, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
+                        [&](const internal::WindowToRefine& window) {
+                          ++asked;
+                          internal::CoupledFlock flock(window.model, window.birds, window.shared);
+                          check(window, flock);
+                        });
+  EXPECT_EQ(asked, 1);
 }
 
-// Gradient of the whole coupled cost against differences, in random directions; then with some of
-// the animals at rest.
+// Gradient of the whole coupled cost against differences, in random directions.
 TEST(CoupledFlock, GradientIsThatOfDifferences) {
-  const FlockSpec spec{.count = 5, .frames = 40};
-  const Segments segments = Seen(spec);
-  int asked = 0;
-  const auto check = [&](const internal::WindowToRefine& window, const std::vector<int>& moving) {
-    ++asked;
-    internal::CoupledFlock flock(window.model, moving, window.birds, window.shared);
-    flock.noise = {.sd = 2, .time = 0.7};
-    Rng rng(4);
-    for (double& x : flock.forces.unknowns) x += 0.1 * rng.Normal();
-    flock.Relinearize();
-    const Eigen::VectorXd gradient = flock.Gradient();
-    const auto move = [&](const Eigen::VectorXd& d, double step) {
-      Eigen::Index at = 0;
-      for (const int i : moving) {
-        internal::Bird& bird = (*window.birds)[static_cast<std::size_t>(i)];
-        for (double& p : bird.path) p += step * d[at++];
-        for (double& p : bird.own) p += step * d[at++];
-      }
-      for (double& p : *window.shared) p += step * d[at++];
-      for (double& p : flock.forces.unknowns) p += step * d[at++];
-      EXPECT_EQ(at, d.size());
-    };
-    for (int trial = 0; trial < 5; ++trial) {
-      Eigen::VectorXd d(gradient.size());
-      for (double& x : d) x = rng.Normal();
-      constexpr double kStep = 1e-7;
-      move(d, kStep);
-      const double up = flock.Cost();
-      move(d, -2 * kStep);
-      const double down = flock.Cost();
-      move(d, kStep);
-      const double slope = (up - down) / (2 * kStep);
-      EXPECT_NEAR(slope / gradient.dot(d), 1, 1e-4);
-    }
-  };
-  internal::SolveWindow({.max_iterations = 3}, Known(spec), segments, std::nullopt, 1, kFps, 1, {},
-                        [&](const internal::WindowToRefine& window) {
-                          check(window, AllOf(window));
-                          check(window, {0, 1, 3});
-                        });
-  EXPECT_EQ(asked, 2);
+  WithFlock({.count = 5, .frames = 40}, {.max_iterations = 3},
+            [](const internal::WindowToRefine& window, internal::CoupledFlock& flock) {
+              flock.noise = {.sd = 2, .time = 0.7};
+              Rng rng(4);
+              for (double& x : flock.forces.unknowns) x += 0.1 * rng.Normal();
+              flock.Relinearize();
+              const Eigen::VectorXd gradient = flock.Gradient();
+              const auto move = [&](const Eigen::VectorXd& d, double step) {
+                Eigen::Index at = 0;
+                for (internal::Bird& bird : *window.birds) {
+                  for (double& p : bird.path) p += step * d[at++];
+                  for (double& p : bird.own) p += step * d[at++];
+                }
+                for (double& p : *window.shared) p += step * d[at++];
+                for (double& p : flock.forces.unknowns) p += step * d[at++];
+                EXPECT_EQ(at, d.size());
+              };
+              for (int trial = 0; trial < 5; ++trial) {
+                Eigen::VectorXd d(gradient.size());
+                for (double& x : d) x = rng.Normal();
+                constexpr double kStep = 1e-7;
+                move(d, kStep);
+                const double up = flock.Cost();
+                move(d, -2 * kStep);
+                const double down = flock.Cost();
+                move(d, kStep);
+                const double slope = (up - down) / (2 * kStep);
+                EXPECT_NEAR(slope / gradient.dot(d), 1, 1e-4);
+              }
+            });
+}
+
+// Column by column.
+Eigen::MatrixXd MatrixOf(internal::CoupledFlock* flock) {
+  const Eigen::Index n = flock->Gradient().size();
+  Eigen::MatrixXd matrix(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    internal::Columns<1> column;
+    flock->Multiply<1>(Eigen::VectorXd::Unit(n, k), &column);
+    matrix.col(k) = column;
+  }
+  return matrix;
+}
+
+// Conjugate gradients against the direct factor of the same matrix.
+TEST(CoupledFlock, SolvesWhatADirectFactorSolves) {
+  WithFlock({.count = 4, .frames = 40}, {},
+            [](const internal::WindowToRefine&, internal::CoupledFlock& flock) {
+              const Eigen::MatrixXd matrix = MatrixOf(&flock);
+              EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-9 * matrix.norm());
+              const Eigen::LLT<Eigen::MatrixXd> direct(matrix);
+              ASSERT_EQ(direct.info(), Eigen::Success);
+              Rng rng(6);
+              Eigen::VectorXd x(matrix.rows());
+              for (double& v : x) v = rng.Normal();
+              const Eigen::VectorXd b = matrix * x;
+              ASSERT_TRUE(flock.Factorise(0));
+              const Eigen::VectorXd solved = flock.Solve<1>(b, {.share = 1e-12, .most = 500});
+              const Eigen::VectorXd off = solved - direct.solve(b);
+              // In the norm of the matrix: what is hardly known may be off.
+              EXPECT_LT(off.dot(matrix * off), 1e-8 * b.dot(x));
+            });
+}
+
+// Draws spread as the inverse of the matrix says, animal by animal and all together.
+TEST(CoupledFlock, DepthsAreAsSureAsTheInverseSays) {
+  WithFlock({.count = 4, .frames = 40}, {},
+            [](const internal::WindowToRefine& window, internal::CoupledFlock& flock) {
+              const auto sds = flock.Depths();
+              const Eigen::MatrixXd covariance = MatrixOf(&flock).inverse();
+              const std::vector<internal::Bird>& birds = *window.birds;
+              Eigen::Index at = 0;
+              std::vector<Eigen::VectorXd> rows;
+              Eigen::VectorXd mean = Eigen::VectorXd::Zero(covariance.rows());
+              for (const internal::Bird& bird : birds) {
+                for (const internal::Bird::Place& place : bird.places) {
+                  Eigen::VectorXd& row = rows.emplace_back(Eigen::VectorXd::Zero(mean.size()));
+                  for (int a = 0; a < 4; ++a) {
+                    row[at + 3 * (place.interval + a) + 2] =
+                        place.weights[static_cast<std::size_t>(a)];
+                  }
+                  mean += row;
+                }
+                at += bird.unknowns() + internal::kOwnUnknowns;
+              }
+              mean /= static_cast<double>(rows.size());
+              // 32 draws: the root of 2 / 32 for one variance.
+              EXPECT_NEAR(sds.mean * sds.mean / mean.dot(covariance * mean), 1, 0.75);
+              std::size_t next = 0;
+              for (const auto& animal : sds.at) {
+                double drawn = 0, exact = 0;
+                for (const double sd : animal) {
+                  const Eigen::VectorXd row = rows[next++] - mean;
+                  drawn += sd * sd;
+                  exact += row.dot(covariance * row);
+                }
+                EXPECT_NEAR(drawn / exact, 1, 0.6);
+              }
+              EXPECT_EQ(next, rows.size());
+            });
 }
 
 TEST(CoupledFlock, MinimizeLowersTheCostToWhereItStays) {
-  const FlockSpec spec{.count = 6, .frames = 60};
-  internal::SolveWindow({}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
-                        [&](const internal::WindowToRefine& window) {
-                          internal::CoupledFlock flock(window.model, AllOf(window), window.birds,
-                                                       window.shared);
-                          const double at_first = flock.Cost();
-                          flock.FitForces(20);
-                          const double before = flock.Cost();
-                          EXPECT_LT(before, at_first);
-                          flock.Minimize(30);
-                          const double after = flock.Cost();
-                          EXPECT_LT(after, before);
-                          flock.Minimize(30);
-                          EXPECT_NEAR(flock.Cost(), after, 1e-2 * after);
-                        });
-}
-
-// Those that do not move stay, and the forces with them where they are not free.
-TEST(CoupledFlock, MovesOnlyWhatIsFree) {
-  const FlockSpec spec{.count = 5, .frames = 60};
-  internal::SolveWindow(
-      {}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
-      [&](const internal::WindowToRefine& window) {
-        internal::CoupledFlock flock(window.model, {1, 2}, window.birds, window.shared);
-        flock.flock_is_free = false;
-        const std::vector<internal::Bird> before = *window.birds;
-        const Eigen::VectorXd shared = *window.shared, unknowns = flock.forces.unknowns;
-        flock.Minimize(4);
-        EXPECT_EQ((*window.birds)[0].path, before[0].path);
-        EXPECT_NE((*window.birds)[1].path, before[1].path);
-        EXPECT_NEAR((*window.shared - shared).norm(), 0, 1e-6);
-        EXPECT_NEAR((flock.forces.unknowns - unknowns).norm(), 0, 1e-6);
-      });
+  WithFlock({.count = 6, .frames = 60}, {},
+            [](const internal::WindowToRefine&, internal::CoupledFlock& flock) {
+              const double at_first = flock.Cost();
+              flock.FitForces(20);
+              const double before = flock.Cost();
+              EXPECT_LT(before, at_first);
+              flock.Minimize(30);
+              const double after = flock.Cost();
+              EXPECT_LT(after, before);
+              flock.Minimize(30);
+              EXPECT_NEAR(flock.Cost(), after, 1e-2 * after);
+            });
 }
 
 // A sd for every sighting; more noise leaves depths less certain.
 TEST(CoupledFlock, ItsDepthsAreAsCertainAsItsNoiseLetsThemBe) {
-  const FlockSpec spec{.count = 5, .frames = 90};
-  internal::SolveWindow({}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
-                        [&](const internal::WindowToRefine& window) {
-                          internal::CoupledFlock flock(window.model, AllOf(window), window.birds,
-                                                       window.shared);
-                          flock.noise.sd = 1;
-                          const auto calm = flock.Depths();
-                          flock.noise.sd = 4;
-                          const auto noisy = flock.Depths();
-                          ASSERT_EQ(calm.at.size(), window.birds->size());
-                          ASSERT_EQ(noisy.at.size(), window.birds->size());
-                          for (std::size_t i = 0; i < calm.at.size(); ++i) {
-                            ASSERT_EQ(calm.at[i].size(), (*window.birds)[i].places.size());
-                            for (std::size_t k = 0; k < calm.at[i].size(); ++k) {
-                              EXPECT_GT(calm.at[i][k], 0);
-                              EXPECT_LT(calm.at[i][k], noisy.at[i][k]);
-                            }
-                          }
-                          EXPECT_GT(calm.mean, 0);
-                          EXPECT_LT(calm.mean, calm.at[0][0]);
-                        });
+  WithFlock({.count = 5, .frames = 90}, {},
+            [](const internal::WindowToRefine& window, internal::CoupledFlock& flock) {
+              flock.noise.sd = 1;
+              const auto calm = flock.Depths();
+              flock.noise.sd = 4;
+              const auto noisy = flock.Depths();
+              ASSERT_EQ(calm.at.size(), window.birds->size());
+              ASSERT_EQ(noisy.at.size(), window.birds->size());
+              for (std::size_t i = 0; i < calm.at.size(); ++i) {
+                ASSERT_EQ(calm.at[i].size(), (*window.birds)[i].places.size());
+                ASSERT_EQ(noisy.at[i].size(), calm.at[i].size());
+                for (std::size_t k = 0; k < calm.at[i].size(); ++k) {
+                  EXPECT_GT(calm.at[i][k], 0);
+                  EXPECT_LT(calm.at[i][k], noisy.at[i][k]);
+                }
+              }
+              EXPECT_GT(calm.mean, 0);
+            });
 }
 
 std::map<std::pair<Id, int>, double> Depths(const DynamicsResult& result,
