@@ -153,9 +153,10 @@ std::string DescribeDynamics(const DynamicsReport& d) {
            std::to_string(hundredths % 100);
   };
   if (d.windows == 0) return "; forces untested: no track is long enough to hide a part of it";
-  return "; forces kept in " + std::to_string(d.kept) + " of " + std::to_string(d.windows) +
-         " windows (" + std::to_string(d.hidden) + " hidden sightings predicted to " +
-         rounded(d.dynamics_error) + " with forces, " + rounded(d.batch_error) + " without)";
+  return "; forces count in " + std::to_string(d.kept) + " of " + std::to_string(d.windows) +
+         " windows" + (d.kept > 0 ? ", by " + Percent(d.weight) : "") + " (" +
+         std::to_string(d.hidden) + " hidden sightings predicted to " + rounded(d.dynamics_error) +
+         " with forces, " + rounded(d.batch_error) + " without)";
 }
 
 void WarnOfDisagreement(const Knowledge& knowledge, const BatchReport& batch,

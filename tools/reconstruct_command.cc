@@ -99,6 +99,7 @@ nlohmann::ordered_json AsJson(const ReconstructReport& report) {
   if (report.dynamics) {
     const DynamicsReport& d = *report.dynamics;
     json["dynamics"] = {{"kept", d.kept},
+                        {"weight", d.weight},
                         {"of_windows", d.windows},
                         {"hidden_sightings", d.hidden},
                         {"prediction_error_batch", d.batch_error},

@@ -16,7 +16,7 @@ namespace {
 constexpr double kMargin = 2;  // beyond reach, so that a frozen neighbourhood stays whole [m]
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-7, kMostDamping = 1e6;
 constexpr double kEnough = 0.1;  // fall of the cost that counts, for each animal
-constexpr GradientStop kStepStop{.share = 1e-3, .most = 200};
+constexpr GradientStop kStepStop{.share = 3e-3, .most = 200};
 
 }  // namespace
 
@@ -71,7 +71,7 @@ void CoupledFlock::Relinearize() {
   }
   const std::vector<Knot> states = States();
   const double reach = forces.Reach() + kMargin;
-  near_.assign(lines_.size(), {});
+  may_hear_.assign(lines_.size(), {});
   for (std::size_t g = 0; g < present_.size(); ++g) {
     std::vector<std::size_t> order;
     for (const int animal : present_[g]) {
@@ -85,12 +85,12 @@ void CoupledFlock::Relinearize() {
         const Vec3d dx = states[order[b]].x - states[order[a]].x;
         if (dx.x > reach) break;
         if (Norm(dx) > reach) continue;
-        near_[order[a]].push_back(order[b]);
-        near_[order[b]].push_back(order[a]);
+        may_hear_[order[a]].push_back(order[b]);
+        may_hear_[order[b]].push_back(order[a]);
       }
     }
   }
-  for (std::vector<std::size_t>& list : near_) std::sort(list.begin(), list.end());
+  for (std::vector<std::size_t>& list : may_hear_) std::sort(list.begin(), list.end());
 }
 
 void CoupledFlock::Hear(std::size_t line, double reach, const std::vector<Knot>& states,
@@ -98,7 +98,7 @@ void CoupledFlock::Hear(std::size_t line, double reach, const std::vector<Knot>&
   heard->offsets.clear();
   heard->lines.clear();
   const Knot& own = states[line];
-  for (const std::size_t other : near_[line]) {
+  for (const std::size_t other : may_hear_[line]) {
     const Vec3d dx = states[other].x - own.x;
     if (Dot(dx, dx) > reach * reach) continue;
     heard->offsets.push_back({dx, states[other].v - own.v});

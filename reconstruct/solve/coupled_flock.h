@@ -82,6 +82,10 @@ class CoupledFlock {
     Eigen::Matrix<double, 3, kForceScalars> by_forces;
     Eigen::Matrix3d by_target;
     Eigen::Vector3d weight{1, 1, 1};  // Huber's, of the whitened row that ends here
+    // What it hears ends here in near_ and far_: those with a derivative each by their (x, v), and
+    // those that have one in common, as all have that are well within the rules' edges.
+    std::size_t near_end = 0, far_end = 0;
+    Matrix36 by_far = Matrix36::Zero();
   };
   template <int Count>
   using Errors = std::vector<Eigen::Matrix<double, 3, Count>>;  // of every line
@@ -124,15 +128,14 @@ class CoupledFlock {
   std::vector<std::size_t> first_line_;    // of every animal
   std::vector<Eigen::Index> place_;        // of every animal's first unknown, then of the border
   std::vector<std::vector<int>> present_;  // animals at every knot of the sequence
-  std::vector<std::vector<std::size_t>> near_;  // lines that each line may come to hear
-  Eigen::VectorXd usual_;                       // unknowns of the forces of usual birds,
-  double usual_log_speed_ = 0;                  // which fly that fast
+  std::vector<std::vector<std::size_t>> may_hear_;  // lines, of every line
+  Eigen::VectorXd usual_;                           // unknowns of the forces of usual birds,
+  double usual_log_speed_ = 0;                      // which fly that fast
   std::vector<Line> lines_;
-  std::vector<std::size_t> first_heard_;  // of every line, in:
-  std::vector<std::size_t> heard_;        // lines of its neighbours, by increasing animal
-  std::vector<Matrix36> by_heard_;        // of its error, by (x, v) of each
-  std::vector<ArrowSystem> animals_;      // each as if the others stood still
-  Eigen::MatrixXd priors_;                // of the border
+  std::vector<std::size_t> near_, far_;  // lines that every line hears
+  std::vector<Matrix36> by_near_;        // of its error, by (x, v) of each that is near
+  std::vector<ArrowSystem> animals_;     // each as if the others stood still
+  Eigen::MatrixXd priors_;               // of the border
   Eigen::VectorXd gradient_, diagonal_;
   double damping_ = 0;
   Eigen::LLT<Eigen::MatrixXd> border_factor_;

@@ -30,23 +30,33 @@ void CoupledFlock::LinearizeLine(std::size_t bird, int knot, const std::vector<K
   Line& line = lines_[at];
   Heard heard;
   Hear(at, reach, states, &heard);
-  const std::size_t first = heard_.size();
-  heard_.insert(heard_.end(), heard.lines.begin(), heard.lines.end());
-  first_heard_.push_back(heard_.size());
-  by_heard_.resize(heard_.size());
-  Matrix36* by = by_heard_.data() + first;
+  std::vector<Matrix36> by(heard.lines.size());
   PairUnknownsMatrix by_pair;
   SelfDerivatives self;
   const Knot& s = states[at];
-  const Vec3d force = PairForce(forces, heard.offsets, by, &by_pair) +
+  const Vec3d force = PairForce(forces, heard.offsets, by.data(), &by_pair) +
                       SelfForce(forces, birds_[bird].own[kOwnLogSpeed], time, s.x, s.v, &self);
   const double factor = birds_[bird].reference_depth / s.z;
   line.error = factor * (s.a - force);
   Matrix36 by_own = self.by_state;
-  for (std::size_t n = 0; n < heard.lines.size(); ++n) {
-    by_own -= by[n];
-    by[n] *= -factor;
+  for (const Matrix36& b : by) by_own -= b;
+  const Matrix36* common = nullptr;
+  for (std::size_t n = 0; n < by.size(); ++n) {
+    for (std::size_t m = 0; m < n && common == nullptr; ++m) {
+      if (by[n] == by[m]) common = &by[m];
+    }
   }
+  for (std::size_t n = 0; n < by.size(); ++n) {
+    if (common != nullptr && by[n] == *common) {
+      far_.push_back(heard.lines[n]);
+    } else {
+      near_.push_back(heard.lines[n]);
+      by_near_.push_back(-factor * by[n]);
+    }
+  }
+  if (common != nullptr) line.by_far = -factor * *common;
+  line.near_end = near_.size();
+  line.far_end = far_.size();
   line.own.noalias() -= factor * by_own * line.state;
   // 1 / z falls as log z, (1, 4, 1) / 6 of three control points, rises.
   for (int axis = 0; axis < 3; ++axis) {
@@ -105,9 +115,9 @@ void CoupledFlock::Linearize() {
     }
   }
   const double reach = forces.Reach();
-  heard_.clear();
-  by_heard_.clear();
-  first_heard_.assign(1, 0);
+  near_.clear();
+  far_.clear();
+  by_near_.clear();
   priors_.setZero(border(), border());
   Eigen::VectorXd of_priors = Eigen::VectorXd::Zero(border());
   const int n = model_.shared();

@@ -48,11 +48,13 @@ void CoupledFlock::ChangesOf(const Columns<Count>& x, Errors<Count>* own,
       change.noalias() += line.by_log_speed * log_speed;
     }
   }
+  std::size_t near = 0, far = 0;
   for (std::size_t at = 0; at < lines_.size(); ++at) {
-    Eigen::Matrix<double, 3, Count> sum = Eigen::Matrix<double, 3, Count>::Zero();
-    for (std::size_t h = first_heard_[at]; h < first_heard_[at + 1]; ++h) {
-      sum.noalias() += by_heard_[h] * states[heard_[h]];
-    }
+    const Line& line = lines_[at];
+    State all = State::Zero();
+    for (; far < line.far_end; ++far) all += states[far_[far]];
+    Eigen::Matrix<double, 3, Count> sum = line.by_far * all;
+    for (; near < line.near_end; ++near) sum.noalias() += by_near_[near] * states[near_[near]];
     (*heard)[at] = sum;
   }
 }
@@ -102,9 +104,13 @@ template <int Count>
 void CoupledFlock::PullHeard(const Errors<Count>& errors, Columns<Count>* y) const {
   using State = Eigen::Matrix<double, 6, Count>;
   std::vector<State> states(lines_.size(), State::Zero());
+  std::size_t near = 0, far = 0;
   for (std::size_t at = 0; at < lines_.size(); ++at) {
-    for (std::size_t h = first_heard_[at]; h < first_heard_[at + 1]; ++h) {
-      states[heard_[h]].noalias() += by_heard_[h].transpose() * errors[at];
+    const Line& line = lines_[at];
+    const State all = line.by_far.transpose() * errors[at];
+    for (; far < line.far_end; ++far) states[far_[far]] += all;
+    for (; near < line.near_end; ++near) {
+      states[near_[near]].noalias() += by_near_[near].transpose() * errors[at];
     }
   }
   for (std::size_t i = 0; i < birds_.size(); ++i) {

@@ -68,14 +68,14 @@ void FollowUsual(const BatchModel& model, const MarkovProcess& noise, Flock* flo
 }
 
 // Goes on with what is known of forces and noise. Returns how sure depths are then.
-DepthPosterior Polish(const BatchModel& model, Flock* flock) {
+CoupledFlock::DepthSds Polish(const BatchModel& model, Flock* flock) {
   CoupledFlock coupled(model, &flock->birds, &flock->shared);
   coupled.forces.unknowns = flock->forces;
   coupled.noise = flock->noise;
   coupled.Relinearize();
   coupled.Minimize(kIterations);
   flock->forces = coupled.forces.unknowns;
-  return coupled.Depths().at;
+  return coupled.Depths();
 }
 
 // Where the common scale drifts while forces are found, it is not because forces know it: it stays
@@ -140,6 +140,36 @@ Followed FollowForces(const DynamicsOptions& options, const WindowToRefine& wind
   return followed;
 }
 
+// Moves `to` by `share` of the way to `from`.
+template <typename Values>
+void Approach(double share, const Values& from, Values* to) {
+  auto target = from.begin();
+  for (double& x : *to) x += share * (*target++ - x);
+}
+
+// The share of the solution with forces in the variances of a mixture of both: what it does not
+// know itself (where two starts end apart neither is sure), and how far the two are from each
+// other.
+DepthPosterior PosteriorOf(double weight, const CoupledFlock::DepthSds& sds,
+                           const std::vector<double>& apart, const std::vector<Bird>& batch,
+                           const std::vector<Bird>& flock) {
+  DepthPosterior posterior{weight, sds.at};
+  for (std::size_t i = 0; i < flock.size(); ++i) {
+    for (std::size_t k = 0; k < flock[i].places.size(); ++k) {
+      const Bird::Place& place = flock[i].places[k];
+      double off = 0;
+      for (std::size_t a = 0; a < 4; ++a) {
+        const std::size_t at = 3 * (static_cast<std::size_t>(place.interval) + a) + 2;
+        off += place.weights[a] * (flock[i].path[at] - batch[i].path[at]);
+      }
+      double& value = posterior.variances[i][k];
+      const double sd = kUnsure * std::hypot(value, apart[i]);
+      value = weight * (sd * sd + (1 - weight) * off * off);
+    }
+  }
+  return posterior;
+}
+
 void Describe(const Flock& flock, DynamicsReport* report) {
   FlockForces f;
   f.unknowns = flock.forces;
@@ -175,8 +205,10 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     report.hidden += hidden.count();
     batch_sum += MeanOf(batch_errors) * static_cast<double>(hidden.count());
     dynamics_sum += MeanOf(errors) * static_cast<double>(hidden.count());
-    if (!PredictsBetter(errors, batch_errors)) return;
+    const double weight = ProbabilityOfBetter(errors, batch_errors);
+    if (!(weight > 0.5)) return;
     ++report.kept;
+    report.weight += weight;
     // The same knots: what is hidden lies between sightings.
     std::vector<Bird> birds = *window.birds;
     for (std::size_t i = 0; i < birds.size(); ++i) {
@@ -184,18 +216,20 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
       birds[i].own = flock.birds[i].own;
     }
     flock.birds = std::move(birds);
-    DepthPosterior posterior = Polish(window.model, &flock);
+    const CoupledFlock::DepthSds sds = Polish(window.model, &flock);
     KeepScale(*window.birds, window.model, &flock);
-    // Where two starts end apart neither is sure.
-    for (std::size_t i = 0; i < posterior.size(); ++i) {
-      for (double& sd : posterior[i]) sd = kUnsure * std::hypot(sd, followed.apart[i]);
+    if (!sds.at.empty()) {
+      *window.posterior = PosteriorOf(weight, sds, followed.apart, *window.birds, flock.birds);
     }
-    if (!posterior.empty()) *window.posterior = std::move(posterior);
-    *window.birds = flock.birds;
-    *window.shared = flock.shared;
+    for (std::size_t i = 0; i < flock.birds.size(); ++i) {
+      Approach(weight, flock.birds[i].path, &(*window.birds)[i].path);
+      Approach(weight, flock.birds[i].own, &(*window.birds)[i].own);
+    }
+    Approach(weight, flock.shared, window.shared);
     Describe(flock, &report);
   };
   result.batch = SolveBatch(batch_options, knowledge, segments, fps, threads, progress, {}, refine);
+  if (report.kept > 0) report.weight /= report.kept;
   if (report.hidden > 0) {
     report.batch_error = batch_sum / static_cast<double>(report.hidden);
     report.dynamics_error = dynamics_sum / static_cast<double>(report.hidden);

@@ -3,9 +3,11 @@
 //
 // Flock dynamics on top of the batch method: the forces between the animals are estimated together
 // with their paths (coupled_flock.h), from the batch solution on, with as much noise as they leave.
-// They have to earn their place: a part of the sightings is hidden from both, and the forces are
-// kept only where they predict these better than the batch solution does. What is hidden must last
-// longer than an acceleration does, or smoothness alone predicts it as well.
+// They have to earn their place: a part of the sightings is hidden from both, and only where forces
+// predict these better than the batch solution does they count, by the probability w that this
+// gives them: depths are w times those with forces plus 1 - w times those of batch (Bayesian model
+// averaging; Hoeting et al., 1999). What is hidden must last longer than an acceleration does, or
+// smoothness alone predicts it as well.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
@@ -36,9 +38,10 @@ void Describe(Visitor& visit, DynamicsOptions& o) {
 
 // What came of it, over all windows.
 struct DynamicsReport {
-  int windows = 0, kept = 0;
-  long hidden = 0;         // sightings
-  double batch_error = 0;  // mean error of the predicted image positions, in their sds
+  int windows = 0, kept = 0;  // tried, and with forces
+  double weight = 0;          // of the solution with forces where it counts, on average
+  long hidden = 0;            // sightings
+  double batch_error = 0;     // mean error of the predicted image positions, in their sds
   double dynamics_error = 0;
   // Of the last window with forces: by the names of boids, `goal` for the goal's weight, `drive`
   // for the cruising speed over the mean speed.
@@ -46,7 +49,7 @@ struct DynamicsReport {
 };
 
 struct DynamicsResult {
-  BatchResult batch;  // with forces where these were kept
+  BatchResult batch;  // with forces where these count
   DynamicsReport report;
 };
 

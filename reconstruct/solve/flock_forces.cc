@@ -17,7 +17,7 @@ namespace flocklift::internal {
 namespace {
 
 using Jet4 = ceres::Jet<double, 4>;  // of a rule's sum: value and weight
-using Jet6 = ceres::Jet<double, 6>;  // of (dx, dv)
+using Jet3 = ceres::Jet<double, 3>;  // of dx
 using JetP = ceres::Jet<double, kPairUnknowns>;
 using JetS = ceres::Jet<double, 6 + 1 + kSelfUnknowns + 3>;  // (x, v), log speed, unknowns, target
 
@@ -43,15 +43,17 @@ struct RuleSum {
   Weighted<double> sum;
   std::vector<Eigen::Matrix<double, 4, 6>> by;  // of (value, weight), one for each neighbour
 
-  void Add(const Share<Jet6>& share) {
-    const Vec3<Jet6> value = share.weight * share.value;
+  // `velocities`: do these average dv, rather than something of dx?
+  void Add(const Share<Jet3>& share, bool velocities) {
+    const Vec3<Jet3> value = share.weight * share.value;
     sum.value += Vec3d{value.x.a, value.y.a, value.z.a};
     sum.weight += share.weight.a;
     Eigen::Matrix<double, 4, 6>& d = by.emplace_back();
-    d.row(0) = value.x.v.transpose();
-    d.row(1) = value.y.v.transpose();
-    d.row(2) = value.z.v.transpose();
-    d.row(3) = share.weight.v.transpose();
+    d.row(0) << value.x.v.transpose(), 0, 0, 0;
+    d.row(1) << value.y.v.transpose(), 0, 0, 0;
+    d.row(2) << value.z.v.transpose(), 0, 0, 0;
+    d.row(3) << share.weight.v.transpose(), 0, 0, 0;
+    if (velocities) d.topRightCorner<3, 3>().diagonal().setConstant(share.weight.a);
   }
   Weighted<Jet4> AsJets() const {
     Weighted<Jet4> jets;
@@ -141,14 +143,16 @@ Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, Matr
   BoidsPairs<double>::Sums sums;
   for (const Offset& o : offsets) sums += plain.Pair(o.dx, o.dv);
   if (by_offsets != nullptr) {
-    const auto pairs = PairsOf<Jet6>([&](ForceUnknown k) { return Jet6(forces[k]); });
+    const auto pairs = PairsOf<Jet3>([&](ForceUnknown k) { return Jet3(forces[k]); });
     RuleSum separation, cohesion, alignment;
+    for (RuleSum* rule : {&separation, &cohesion, &alignment}) rule->by.reserve(offsets.size());
     for (std::size_t j = 0; j < offsets.size(); ++j) {
+      const Vec3d& dv = offsets[j].dv;
       const auto shares =
-          pairs.Pair(Seeded<Jet6>(offsets[j].dx, 0), Seeded<Jet6>(offsets[j].dv, 3));
-      separation.Add(shares.separation);
-      cohesion.Add(shares.cohesion);
-      alignment.Add(shares.alignment);
+          pairs.Pair(Seeded<Jet3>(offsets[j].dx, 0), {Jet3(dv.x), Jet3(dv.y), Jet3(dv.z)});
+      separation.Add(shares.separation, false);
+      cohesion.Add(shares.cohesion, false);
+      alignment.Add(shares.alignment, true);
       by_offsets[j].setZero();
     }
     const auto rules = PairsOf<Jet4>([&](ForceUnknown k) { return Jet4(forces[k]); });

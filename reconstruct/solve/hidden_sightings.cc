@@ -76,18 +76,11 @@ double MeanOf(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-bool PredictsBetter(const std::vector<double>& errors, const std::vector<double>& others) {
-  if (errors.size() != others.size() || errors.size() < 3) return false;
-  double sum = 0, squares = 0;
-  for (std::size_t k = 0; k < errors.size(); ++k) {
-    const double gain = others[k] - errors[k];
-    sum += gain;
-    squares += gain * gain;
-  }
-  const double n = static_cast<double>(errors.size());
-  const double mean = sum / n;
-  constexpr double kEnough = 0.5;  // a dozen pieces is what a scene has
-  return mean > kEnough * std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1));
+double ProbabilityOfBetter(const std::vector<double>& errors, const std::vector<double>& others) {
+  if (errors.empty() || errors.size() != others.size()) return 0.5;
+  // What is averaged are square roots: the scale is their mean squared.
+  const double log_scales = 2 * std::log(MeanOf(others) / MeanOf(errors));
+  return 1 / (1 + std::exp(-2 * static_cast<double>(errors.size()) * log_scales));
 }
 
 }  // namespace flocklift::internal

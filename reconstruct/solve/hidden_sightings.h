@@ -39,8 +39,10 @@ class HiddenSightings {
 
 double MeanOf(const std::vector<double>& values);
 
-// Is `errors` less than `others`, piece by piece, by more than half a standard error of the mean?
-bool PredictsBetter(const std::vector<double>& errors, const std::vector<double>& others);
+// How probable it is, from even odds, that what made `errors` of the pieces is nearer to the truth
+// than what made `others`. Errors of pieces come from one distribution of unknown scale each, two
+// coordinates a piece, so that the likelihoods stand as the scales do to the power of -2 n.
+double ProbabilityOfBetter(const std::vector<double>& errors, const std::vector<double>& others);
 
 }  // namespace flocklift::internal
 

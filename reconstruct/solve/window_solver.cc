@@ -274,10 +274,12 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   report.final_cost = solver.Cost();
   const Eigen::MatrixXd covariance = ReadOut(&state, &solver, &solved.result);
   if (posterior) {
+    const double scale = report.scale_sd * report.scale_sd;
     for (std::size_t i = 0; i < state.birds.size(); ++i) {
-      const std::vector<double>& sds = (*posterior)[i];
-      for (std::size_t k = 0; k < sds.size(); ++k) {
-        solved.result.paths[i][k].sd_log_depth = std::hypot(sds[k], report.scale_sd);
+      for (std::size_t k = 0; k < state.birds[i].places.size(); ++k) {
+        double& sd = solved.result.paths[i][k].sd_log_depth;
+        const double own = std::max(0.0, sd * sd - scale);
+        sd = std::sqrt((1 - posterior->weight) * own + posterior->variances[i][k] + scale);
       }
     }
   }

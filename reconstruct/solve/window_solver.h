@@ -28,9 +28,12 @@ struct SolvedWindow {
   Belief belief;  // in the flock's first four unknowns, that of other windows included
 };
 
-// How well depths are known but for the common scale: sd of the log depth at every sighting, by
-// segment (empty: as the batch method has it, scale included).
-using DepthPosterior = std::vector<std::vector<double>>;
+// How well depths are known but for the common scale, by another method that counts for `weight`:
+// its share of the variance of the log depth at every sighting, by segment.
+struct DepthPosterior {
+  double weight = 0;
+  std::vector<std::vector<double>> variances;
+};
 
 // A window when the batch method is done with it, for a method that goes on from there and leaves
 // its own paths, and their posterior where that is not the batch method's.

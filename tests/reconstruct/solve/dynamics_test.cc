@@ -52,12 +52,16 @@ TEST(HiddenSightings, HidesItsShareInPiecesBetweenSightings) {
   EXPECT_EQ(hidden.rest().rows, kept);
 }
 
-TEST(HiddenSightings, BetterMeansByMoreThanItsError) {
-  EXPECT_TRUE(internal::PredictsBetter({1, 1.1, 0.9, 1}, {2, 2.1, 1.9, 2.05}));
-  EXPECT_FALSE(internal::PredictsBetter({2, 2.1, 1.9, 2}, {1, 1.1, 0.9, 1}));
-  EXPECT_FALSE(internal::PredictsBetter({1, 3, 1, 3}, {2, 2, 2.1, 2}));  // by chance
-  EXPECT_FALSE(internal::PredictsBetter({1, 1, 1}, {1, 1, 1}));
-  EXPECT_FALSE(internal::PredictsBetter({}, {}));
+TEST(HiddenSightings, BetterIsAsProbableAsTheScalesOfErrorsSay) {
+  using internal::ProbabilityOfBetter;
+  // Square roots: errors are half as large. Four pieces of two coordinates: odds of 2^8.
+  const double root = std::sqrt(0.5);
+  EXPECT_NEAR(ProbabilityOfBetter({root, root, root, root}, {1, 1, 1, 1}), 256.0 / 257, 1e-12);
+  EXPECT_NEAR(ProbabilityOfBetter({1, 1, 1, 1}, {root, root, root, root}), 1.0 / 257, 1e-12);
+  EXPECT_EQ(ProbabilityOfBetter({1, 3, 1}, {2, 1, 2}), 0.5);  // by chance
+  // A hair's breadth says nothing, however steady.
+  EXPECT_NEAR(ProbabilityOfBetter({1, 1.1, 0.9}, {1.001, 1.101, 0.901}), 0.5, 0.01);
+  EXPECT_EQ(ProbabilityOfBetter({}, {}), 0.5);
 }
 
 // Calls with the coupled flock of a batch solution.
