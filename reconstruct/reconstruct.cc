@@ -159,17 +159,17 @@ std::string DescribeDynamics(const DynamicsReport& d) {
          " with forces, " + rounded(d.batch_error) + " without)";
 }
 
-void WarnOfDisagreement(const Knowledge& knowledge, const BatchReport& batch,
-                        ReconstructReport* report) {
-  if (!knowledge.speed || !knowledge.wingspan || !knowledge.use_size) return;
-  const double disagreement = batch.speed_against_size.mean;
-  const double sds = std::abs(disagreement) / batch.speed_against_size.sd;
-  if (!(sds > 1)) return;
-  report->warnings.push_back(
-      "speed and wingspan disagree: by the sizes the flock flies " +
-      Percent(std::abs(std::expm1(disagreement))) + (disagreement > 0 ? " faster" : " slower") +
-      " than stated (" + std::to_string(std::lround(sds * 10) / 10) + "." +
-      std::to_string(std::lround(sds * 10) % 10) + " sd); the scale is a compromise");
+// By how much the two that fix the scale are apart, as the tracks tell it; sd of what sizes tell.
+std::string SpeedBySizes(const Uncertain& apart) {
+  return "by the sizes the flock flies " + Percent(std::abs(std::expm1(apart.mean))) +
+         (apart.mean > 0 ? " faster" : " slower") + " than stated (sd " + Percent(apart.sd) + ")";
+}
+
+// The stated speed lies outside what the sizes say, however little it is trusted itself.
+void WarnOfDisagreement(const Uncertain& apart, std::vector<std::string>* warnings) {
+  if (!(std::abs(apart.mean) > apart.sd)) return;
+  warnings->push_back("speed and wingspan disagree: " + SpeedBySizes(apart) +
+                      "; the scale is a compromise");
 }
 
 void WarnOfSecondCamera(const SecondCameraReport& second, std::vector<std::string>* warnings) {
@@ -297,8 +297,12 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   if (!report.converged) {
     report.warnings.push_back("the solver stopped before the cost stood still");
   }
-  WarnOfDisagreement(knowledge, batch.report, &report);
   report.observability = DescribeObservability(knowledge, segments, batch, report);
+  if (knowledge.speed && knowledge.wingspan && knowledge.use_size) {
+    report.speed_by_sizes = batch.report.speed_against_size;
+    WarnOfDisagreement(*report.speed_by_sizes, &report.warnings);
+    report.observability += "; " + SpeedBySizes(*report.speed_by_sizes);
+  }
   if (report.dynamics) report.observability += DescribeDynamics(*report.dynamics);
   result.trajectories = Assemble(axes, knowledge, segments, batch.paths, fps, true);
   return result;

@@ -59,6 +59,9 @@ struct ReconstructReport {
   std::string outlook;        // the same before solving
   std::string observability;  // in words: what relative depth rests on
   double relative_sd = 0;     // median relative sd of a depth, common scale taken out
+  // Where speed and wingspan are both stated: log of the speed that the sizes tell over the stated
+  // one, with the sd of what sizes tell.
+  std::optional<Uncertain> speed_by_sizes;
   std::vector<TermStatistics> terms;
   std::vector<std::pair<std::string, double>> spreads;  // of the priors, as estimated
   std::optional<DynamicsReport> dynamics;

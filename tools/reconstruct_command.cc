@@ -96,6 +96,10 @@ nlohmann::ordered_json AsJson(const ReconstructReport& report) {
       {"final_cost", report.final_cost},       {"iterations", report.iterations},
       {"converged", report.converged}};
   for (const auto& [name, value] : report.spreads) json["spreads"][name] = value;
+  if (report.speed_by_sizes) {
+    json["speed_by_sizes"] = {{"log_over_stated", report.speed_by_sizes->mean},
+                              {"sd", report.speed_by_sizes->sd}};
+  }
   if (report.dynamics) {
     const DynamicsReport& d = *report.dynamics;
     json["dynamics"] = {{"kept", d.kept},

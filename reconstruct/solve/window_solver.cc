@@ -181,7 +181,7 @@ Eigen::MatrixXd ReadOut(BatchState* state, BatchSolver* solver, BatchResult* res
   const BatchModel& model = state->model;
   report.speed_against_size = {(state->shared[kFlockLogSpeed] - model.flock_log_speed.mean) +
                                    (model.size_ratio.mean - state->shared[kSizeRatio]),
-                               std::hypot(model.flock_log_speed.sd, model.size_ratio.sd)};
+                               model.size_ratio.sd};
   report.size_ratio = {ratio, ratio * std::sqrt(covariance(kSizeRatio, kSizeRatio))};
   report.lean = {state->shared[kLean], std::sqrt(covariance(kLean, kLean))};
   return covariance;

@@ -198,14 +198,34 @@ TEST_F(Twin, NearAndFarAloneGiveTheMiddle) {
   EXPECT_GT(result.report.scale_sd, 0.1);
 }
 
-// A mean speed that is far off the sizes is told.
+// By how much the stated speed is off what the sizes tell is always said; and warned of where it is
+// more than these can be off, however little the speed is trusted.
 TEST_F(Twin, DisagreementIsTold) {
-  ReconstructOptions options = TrueKnowledge(flock_);
-  options.knowledge.speed = Uncertain{1.8 * flock_.speed, 0.18 * flock_.speed};
-  const auto wrong = Reconstruct(options, tracks_, camera_, flock_.fps, 1, {});
-  ASSERT_FALSE(wrong.report.warnings.empty());
-  EXPECT_THAT(wrong.report.warnings.back(), testing::HasSubstr("disagree"));
-  EXPECT_THAT(wrong.report.warnings.back(), testing::HasSubstr("slower"));
+  const auto told = [&](double factor, double trust) {
+    ReconstructOptions options = TrueKnowledge(flock_);
+    options.knowledge.speed = Uncertain{factor * flock_.speed, trust * factor * flock_.speed};
+    return Reconstruct(options, tracks_, camera_, flock_.fps, 1, {}).report;
+  };
+  const double off = told(1, 0.1).speed_by_sizes.value().mean;
+  for (const double trust : {0.1, 0.2}) {
+    for (const double factor : {1.8, 1.15, 1.0, 0.85, 0.6}) {
+      const ReconstructReport report = told(factor, trust);
+      ASSERT_TRUE(report.speed_by_sizes.has_value());
+      const Uncertain apart = *report.speed_by_sizes;
+      EXPECT_NEAR(apart.mean, off - std::log(factor), 0.05) << factor;
+      const char* side = apart.mean > 0 ? "faster" : "slower";
+      EXPECT_THAT(report.observability, testing::HasSubstr(side));
+      const auto warning = testing::AllOf(testing::HasSubstr("disagree"), testing::HasSubstr(side));
+      const bool warned = testing::Value(report.warnings, testing::Contains(warning));
+      EXPECT_EQ(warned, std::abs(apart.mean) > apart.sd) << factor;
+      if (std::abs(std::log(factor)) > 0.5) {
+        EXPECT_TRUE(warned);
+      }
+      if (factor == 1) {
+        EXPECT_FALSE(warned);
+      }
+    }
+  }
 }
 
 // The world may be turned and moved: the flock turns with it.

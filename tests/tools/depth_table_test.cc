@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -131,6 +133,74 @@ TEST_F(DepthTableTest, TheTableAveragesOverSeedsBelowTheConstantDepth) {
             std::string::npos)
       << table;
   EXPECT_NE(table.find("| 2.00 |"), std::string::npos) << table;
+}
+
+// Birds that wheel about a point by the forces of boids.
+constexpr const char* kCircling = R"(
+[scene]
+seed = 1
+duration = 8
+fps = 25
+warmup = 10
+box = [[-100, -100, 0], [100, 100, 100]]
+[[species]]
+name = "jackdaw"
+wingspan = 0.7
+wingspan_spread = 0.05
+speed = 10
+speed_spread = 0.05
+start = [[-12, -12, 8], [12, 12, 16]]
+model = "boids"
+[species.parameters]
+d_s = 4
+d_v = 12
+taper = 3
+alpha_s = 1.5
+alpha_c = 0.1
+alpha_a = 0.7
+level = 0.8
+noise = 1
+goal_range = 20
+[[goal]]
+position = [0, 0, 12]
+weight = 0.6
+[camera]
+fov = 50
+position = [0, -45, 1.7]
+look_at = [0, 0, 12]
+)";
+
+double MeanLogDepth(const Camera& camera, const Trajectories& flock) {
+  double sum = 0, count = 0;
+  for (const Trajectory& t : flock.trajectories) {
+    for (const TrajectoryPoint& p : t.points) {
+      sum += std::log((camera.CamFromWorld(p.frame) * p.position).z);
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
+// Forces that are there are found and make relative depth better, by a lot; the common scale, of
+// which they know nothing, stays that of batch.
+TEST_F(DepthTableTest, ForcesTellDepthWhereAFlockHasThem) {
+  std::ofstream(folder_ / "depth_circling.toml") << kCircling;
+  const DepthMethod batch{"batch"}, dynamics{"dynamics", ReconstructMethod::kDynamics};
+  double batch_error = 0, error = 0;
+  for (const std::uint64_t seed : {1, 2}) {
+    const DepthTwin twin = MakeDepthTwin({.scene = "circling"}, folder_, 12, seed, 1);
+    const DepthRun without = RunDepthMethod(batch, twin, 1);
+    const DepthRun with = RunDepthMethod(dynamics, twin, 1);
+    batch_error += without.scores.scaled_error_median;
+    error += with.scores.scaled_error_median;
+    ASSERT_TRUE(with.report.dynamics.has_value());
+    EXPECT_NEAR(MeanLogDepth(twin.camera, with.result), MeanLogDepth(twin.camera, without.result),
+                0.005);
+    if (with.report.dynamics->kept == 0) continue;
+    EXPECT_LT(with.report.dynamics->dynamics_error, with.report.dynamics->batch_error);
+    EXPECT_GT(with.report.dynamics->weight, 0.5);
+  }
+  EXPECT_LT(error, 0.75 * batch_error);
 }
 
 }  // namespace
