@@ -282,9 +282,10 @@ void AddReconstructCommand(CLI::App& app) {
                   "shapes of the tracked animals; default: shapes.csv beside the tracks");
   sub->add_option(
          "--method", command->method,
-         "batch (the best), dynamics (with forces between the animals, where these predict "
-         "hidden sightings better), cobyla (as published) or lin-ceres (the same with another "
-         "optimiser)")
+         "batch; dynamics (better where the animals act on each other: with forces between them, "
+         "as "
+         "far as these predict hidden sightings better; about ten times the time); cobyla (as "
+         "published) or lin-ceres (the same with another optimiser)")
       ->check(CLI::IsMember({"batch", "dynamics", "cobyla", "lin-ceres"}))
       ->capture_default_str();
   sub->add_option("--output", command->output, "name of the file to write; .h5 for HDF5")

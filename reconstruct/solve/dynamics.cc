@@ -147,27 +147,55 @@ void Approach(double share, const Values& from, Values* to) {
   for (double& x : *to) x += share * (*target++ - x);
 }
 
-// The share of the solution with forces in the variances of a mixture of both: what it does not
-// know itself (where two starts end apart neither is sure), and how far the two are from each
-// other.
-DepthPosterior PosteriorOf(double weight, const CoupledFlock::DepthSds& sds,
-                           const std::vector<double>& apart, const std::vector<Bird>& batch,
-                           const std::vector<Bird>& flock) {
-  DepthPosterior posterior{weight, sds.at};
+// Log depths of two solutions side by side, at every sighting.
+struct Both {
+  std::vector<std::vector<double>> batch, forces;  // variances, of what is not the common scale
+  std::vector<std::vector<double>> off;            // from batch to forces
+
+  // How far to go from one to the other, for the least variance of errors that are correlated:
+  // their covariance follows from how far the solutions are apart (Bates and Granger, "The
+  // combination of forecasts", 1969).
+  double LeastVarianceShare() const {
+    double gain = 0, squares = 0;
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      for (std::size_t k = 0; k < off[i].size(); ++k) {
+        gain += batch[i][k] - forces[i][k];
+        squares += off[i][k] * off[i][k];
+      }
+    }
+    return squares > 0 ? std::clamp(0.5 + 0.5 * gain / squares, 0.0, 1.0) : 1;
+  }
+  // The share of forces in a mixture's variances, and what the two are apart.
+  DepthPosterior Mixed(double weight) const {
+    DepthPosterior posterior{weight, forces};
+    for (std::size_t i = 0; i < off.size(); ++i) {
+      for (std::size_t k = 0; k < off[i].size(); ++k) {
+        double& value = posterior.variances[i][k];
+        value = weight * (value + (1 - weight) * off[i][k] * off[i][k]);
+      }
+    }
+    return posterior;
+  }
+};
+
+// With forces they are what these leave open, and where two starts end apart neither is sure.
+Both SideBySide(const WindowToRefine& window, const CoupledFlock::DepthSds& sds,
+                const std::vector<double>& apart, const std::vector<Bird>& flock) {
+  Both both{window.variances(), sds.at, sds.at};
   for (std::size_t i = 0; i < flock.size(); ++i) {
     for (std::size_t k = 0; k < flock[i].places.size(); ++k) {
+      const double sd = kUnsure * std::hypot(sds.at[i][k], apart[i]);
+      both.forces[i][k] = sd * sd;
       const Bird::Place& place = flock[i].places[k];
       double off = 0;
       for (std::size_t a = 0; a < 4; ++a) {
         const std::size_t at = 3 * (static_cast<std::size_t>(place.interval) + a) + 2;
-        off += place.weights[a] * (flock[i].path[at] - batch[i].path[at]);
+        off += place.weights[a] * (flock[i].path[at] - (*window.birds)[i].path[at]);
       }
-      double& value = posterior.variances[i][k];
-      const double sd = kUnsure * std::hypot(value, apart[i]);
-      value = weight * (sd * sd + (1 - weight) * off * off);
+      both.off[i][k] = off;
     }
   }
-  return posterior;
+  return both;
 }
 
 void Describe(const Flock& flock, DynamicsReport* report) {
@@ -205,10 +233,8 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     report.hidden += hidden.count();
     batch_sum += MeanOf(batch_errors) * static_cast<double>(hidden.count());
     dynamics_sum += MeanOf(errors) * static_cast<double>(hidden.count());
-    const double weight = ProbabilityOfBetter(errors, batch_errors);
-    if (!(weight > 0.5)) return;
-    ++report.kept;
-    report.weight += weight;
+    const double better = ProbabilityOfBetter(errors, batch_errors);
+    if (!(better > 0.5)) return;
     // The same knots: what is hidden lies between sightings.
     std::vector<Bird> birds = *window.birds;
     for (std::size_t i = 0; i < birds.size(); ++i) {
@@ -218,9 +244,13 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     flock.birds = std::move(birds);
     const CoupledFlock::DepthSds sds = Polish(window.model, &flock);
     KeepScale(*window.birds, window.model, &flock);
-    if (!sds.at.empty()) {
-      *window.posterior = PosteriorOf(weight, sds, followed.apart, *window.birds, flock.birds);
-    }
+    if (sds.at.empty()) return;
+    const Both both = SideBySide(window, sds, followed.apart, flock.birds);
+    const double weight = better * both.LeastVarianceShare();
+    if (!(weight > 0)) return;
+    ++report.kept;
+    report.weight += weight;
+    *window.posterior = both.Mixed(weight);
     for (std::size_t i = 0; i < flock.birds.size(); ++i) {
       Approach(weight, flock.birds[i].path, &(*window.birds)[i].path);
       Approach(weight, flock.birds[i].own, &(*window.birds)[i].own);

@@ -4,10 +4,10 @@
 // Flock dynamics on top of the batch method: the forces between the animals are estimated together
 // with their paths (coupled_flock.h), from the batch solution on, with as much noise as they leave.
 // They have to earn their place: a part of the sightings is hidden from both, and only where forces
-// predict these better than the batch solution does they count, by the probability w that this
-// gives them: depths are w times those with forces plus 1 - w times those of batch (Bayesian model
-// averaging; Hoeting et al., 1999). What is hidden must last longer than an acceleration does, or
-// smoothness alone predicts it as well.
+// predict these better than the batch solution does they count, by the probability that this gives
+// them (Bayesian model averaging; Hoeting et al., 1999); and so far as they leave depths less open
+// than batch does. Depths are w times those with forces plus 1 - w times those of batch. What is
+// hidden must last longer than an acceleration does, or smoothness alone predicts it as well.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_

@@ -269,7 +269,21 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   }
   std::optional<DepthPosterior> posterior;
   if (refine) {
-    refine({segments, belief, first_frame, state.model, &state.birds, &state.shared, &posterior});
+    const auto variances = [&] {
+      BatchResult unrefined;
+      ReadOut(&state, &solver, &unrefined);
+      const double scale = unrefined.report.scale_sd * unrefined.report.scale_sd;
+      std::vector<std::vector<double>> all;
+      for (const SolvedPath& path : unrefined.paths) {
+        std::vector<double>& own = all.emplace_back();
+        for (const SolvedPoint& p : path) {
+          own.push_back(std::max(0.0, p.sd_log_depth * p.sd_log_depth - scale));
+        }
+      }
+      return all;
+    };
+    refine({segments, belief, first_frame, state.model, &state.birds, &state.shared, &posterior,
+            variances});
   }
   report.final_cost = solver.Cost();
   const Eigen::MatrixXd covariance = ReadOut(&state, &solver, &solved.result);

@@ -45,6 +45,9 @@ struct WindowToRefine {
   std::vector<Bird>* birds = nullptr;
   Eigen::VectorXd* shared = nullptr;
   std::optional<DepthPosterior>* posterior = nullptr;
+  // How sure the batch method is itself: variances of the log depth at every sighting, by segment,
+  // that of the common scale taken out.
+  std::function<std::vector<std::vector<double>>()> variances;
 };
 using WindowRefiner = std::function<void(const WindowToRefine&)>;
 
