@@ -165,26 +165,27 @@ struct Both {
     }
     return squares > 0 ? std::clamp(0.5 + 0.5 * gain / squares, 0.0, 1.0) : 1;
   }
-  // The share of forces in a mixture's variances, and what the two are apart.
-  DepthPosterior Mixed(double weight) const {
+  // The share of forces in a mixture's variances, and what the two are apart. With forces neither
+  // of two starts is sure where these end `apart`.
+  DepthPosterior Mixed(double weight, const std::vector<double>& apart) const {
     DepthPosterior posterior{weight, forces};
     for (std::size_t i = 0; i < off.size(); ++i) {
       for (std::size_t k = 0; k < off[i].size(); ++k) {
         double& value = posterior.variances[i][k];
-        value = weight * (value + (1 - weight) * off[i][k] * off[i][k]);
+        const double open = kUnsure * apart[i];
+        value = weight * (value + open * open + (1 - weight) * off[i][k] * off[i][k]);
       }
     }
     return posterior;
   }
 };
 
-// With forces they are what these leave open, and where two starts end apart neither is sure.
 Both SideBySide(const WindowToRefine& window, const CoupledFlock::DepthSds& sds,
-                const std::vector<double>& apart, const std::vector<Bird>& flock) {
+                const std::vector<Bird>& flock) {
   Both both{window.variances(), sds.at, sds.at};
   for (std::size_t i = 0; i < flock.size(); ++i) {
     for (std::size_t k = 0; k < flock[i].places.size(); ++k) {
-      const double sd = kUnsure * std::hypot(sds.at[i][k], apart[i]);
+      const double sd = kUnsure * sds.at[i][k];
       both.forces[i][k] = sd * sd;
       const Bird::Place& place = flock[i].places[k];
       double off = 0;
@@ -245,12 +246,12 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     const CoupledFlock::DepthSds sds = Polish(window.model, &flock);
     KeepScale(*window.birds, window.model, &flock);
     if (sds.at.empty()) return;
-    const Both both = SideBySide(window, sds, followed.apart, flock.birds);
+    const Both both = SideBySide(window, sds, flock.birds);
     const double weight = better * both.LeastVarianceShare();
     if (!(weight > 0)) return;
     ++report.kept;
     report.weight += weight;
-    *window.posterior = both.Mixed(weight);
+    *window.posterior = both.Mixed(weight, followed.apart);
     for (std::size_t i = 0; i < flock.birds.size(); ++i) {
       Approach(weight, flock.birds[i].path, &(*window.birds)[i].path);
       Approach(weight, flock.birds[i].own, &(*window.birds)[i].own);
