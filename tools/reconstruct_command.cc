@@ -125,6 +125,17 @@ nlohmann::ordered_json AsJson(const ReconstructReport& report) {
   return json;
 }
 
+// Up to so many rows forces are tried without being asked for: at one to three milliseconds of CPU
+// time a row that is a minute.
+constexpr std::size_t kDynamicsRows = 30000;
+
+ReconstructMethod MethodFor(const std::string& name, const Tracks& tracks) {
+  if (name != "auto") return MethodOf(name);
+  std::size_t rows = 0;
+  for (const Tracklet& tracklet : tracks.tracklets) rows += tracklet.detections.size();
+  return rows <= kDynamicsRows ? ReconstructMethod::kDynamics : ReconstructMethod::kBatch;
+}
+
 }  // namespace
 
 Knowledge KnowledgeOf(const ReconstructCommand& command) {
@@ -151,7 +162,6 @@ Knowledge KnowledgeOf(const ReconstructCommand& command) {
 
 void RunReconstruct(const ReconstructCommand& command, const CommonOptions& common) {
   ReconstructOptions options;
-  options.method = MethodOf(command.method);
   options.knowledge = KnowledgeOf(command);
   options.pitch_deg = command.pitch_deg;
   options.batch = command.batch;
@@ -199,6 +209,7 @@ void RunReconstruct(const ReconstructCommand& command, const CommonOptions& comm
     options.cobyla_first_depths =
         ReadFirstDepths(command.first_depths, camera, SpanOf(tracks).first);
   }
+  options.method = MethodFor(command.method, tracks);
   const double fps = FpsFor(command.tracks, common, tracks, camera);
   if (!command.second_tracks.empty()) {
     options.second_camera = ReadSecondCamera(command, common, camera);
@@ -207,8 +218,12 @@ void RunReconstruct(const ReconstructCommand& command, const CommonOptions& comm
   progress = stage.BeginPhase("solve", command.method == "cobyla" || command.method == "lin-ceres"
                                            ? "frames"
                                            : "iterations");
-  const ReconstructResult result =
+  ReconstructResult result =
       Reconstruct(options, tracks, camera, fps, common.ThreadCount(), progress);
+  if (command.method == "auto" && options.method == ReconstructMethod::kBatch) {
+    result.report.observability += fmt::format(
+        "; forces untried with more than {} rows (--method dynamics tries them)", kDynamicsRows);
+  }
   stage.BeginPhase("write", "files");
   WriteTrajectories(common.out / command.output, result.trajectories);
   stage.EndPhase();
@@ -282,11 +297,12 @@ void AddReconstructCommand(CLI::App& app) {
                   "shapes of the tracked animals; default: shapes.csv beside the tracks");
   sub->add_option(
          "--method", command->method,
-         "batch; dynamics (better where the animals act on each other: with forces between them, "
-         "as "
-         "far as these predict hidden sightings better; about ten times the time); cobyla (as "
-         "published) or lin-ceres (the same with another optimiser)")
-      ->check(CLI::IsMember({"batch", "dynamics", "cobyla", "lin-ceres"}))
+         fmt::format(
+             "auto: dynamics up to {} rows, batch beyond; batch; dynamics (batch, then with forces "
+             "between the animals as far as these predict hidden sightings better; about ten times "
+             "the time); cobyla (as published) or lin-ceres (the same with another optimiser)",
+             kDynamicsRows))
+      ->check(CLI::IsMember({"auto", "batch", "dynamics", "cobyla", "lin-ceres"}))
       ->capture_default_str();
   sub->add_option("--output", command->output, "name of the file to write; .h5 for HDF5")
       ->capture_default_str();

@@ -23,7 +23,7 @@ struct ReconstructCommand {
   std::filesystem::path first_depths;  // empty: none; trajectories for cobyla's first frame
   std::filesystem::path second_tracks, second_camera;  // empty: none
   std::optional<double> second_offset;                 // absent: found [s]
-  std::string method = "batch";
+  std::string method = "auto";  // dynamics where the rows are few enough, else batch
   std::string preset;           // empty: none
   std::string speed, wingspan;  // "MEAN[,SD]"; empty: not known
   std::optional<double> near, far, pitch_deg;

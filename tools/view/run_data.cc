@@ -242,21 +242,20 @@ std::size_t RunData::animal_count() const {
 }
 
 ReconstructCommand RunData::Command() const {
-  ReconstructCommand command;
+  ReconstructCommand start;
+  start.method = "batch";
   const fs::path& tracks = run_.tables.tracks;
-  command.tracks = tracks.empty() ? run_.folder / "tracks.csv" : tracks;
-  command.camera = run_.camera_file;
+  start.tracks = tracks.empty() ? run_.folder / "tracks.csv" : tracks;
+  start.camera = run_.camera_file;
   const Json* summary = SummaryOf(run_, "reconstruct");
-  if (summary != nullptr && summary->contains("options")) {
-    try {
-      TakeSolveOptions(summary->at("options"), &command);
-    } catch (const std::invalid_argument&) {
-      command = {};  // of another version: the defaults
-      command.tracks = tracks.empty() ? run_.folder / "tracks.csv" : tracks;
-      command.camera = run_.camera_file;
-    }
+  if (summary == nullptr || !summary->contains("options")) return start;
+  try {
+    ReconstructCommand command = start;
+    TakeSolveOptions(summary->at("options"), &command);
+    return command;
+  } catch (const std::invalid_argument&) {
+    return start;  // of another version: the defaults
   }
-  return command;
 }
 
 const TrackList& RunData::CurrentTracks() const {

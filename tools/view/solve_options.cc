@@ -97,6 +97,9 @@ void TakeNumber(const Json& json, const char* name, std::optional<double>* value
 void TakeSolveOptions(const Json& json, ReconstructCommand* command) {
   Check(json.is_object(), "the options must be a JSON object");
   TakeText(json, "method", &command->method);
+  // While somebody waits it is solved without forces.
+  if (command->method == "auto" || command->method == "dynamics") command->method = "batch";
+  if (command->method == "lin-ceres") command->method = "cobyla";
   Check(command->method == "batch" || command->method == "cobyla",
         "the method must be batch or cobyla");
   TakeText(json, "preset", &command->preset);

@@ -17,6 +17,7 @@ using testing::Not;
 
 ReconstructCommand Command() {
   ReconstructCommand command;
+  command.method = "batch";
   command.tracks = "run/tracks.csv";
   command.camera = "a camera.yaml";
   return command;
@@ -39,6 +40,15 @@ TEST(SolveOptions, GoThereAndBack) {
   ReconstructCommand again = Command();
   TakeSolveOptions(SolveOptionsAsJson(command), &again);
   EXPECT_EQ(SolveOptionsAsJson(again), SolveOptionsAsJson(command));
+}
+
+TEST(SolveOptions, ForcesAreLeftOutWhileSomebodyWaits) {
+  for (const char* method : {"auto", "dynamics", "batch"}) {
+    ReconstructCommand command;
+    TakeSolveOptions({{"method", method}, {"speed", "11,1"}}, &command);
+    EXPECT_EQ(command.method, "batch");
+    EXPECT_EQ(command.speed, "11,1");
+  }
 }
 
 TEST(SolveOptions, AreChecked) {
