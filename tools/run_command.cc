@@ -79,7 +79,8 @@ void AddRunCommand(CLI::App& app) {
   sub->add_option("--camera", command->reconstruct.camera, "camera file")->required();
   sub->add_option("--corrections", command->track.corrections, "a person's edits of the tracks");
   sub->add_flag("--overlay", command->track.overlay, "also write overlay.mp4");
-  sub->add_option("--method", command->reconstruct.method, "auto, batch, dynamics or cobyla, as of reconstruct")
+  sub->add_option("--method", command->reconstruct.method,
+                  "auto, batch, dynamics or cobyla, as of reconstruct")
       ->check(CLI::IsMember({"auto", "batch", "dynamics", "cobyla"}))
       ->capture_default_str();
   sub->add_option("--model", command->fit.model, "the model to fit")->capture_default_str();

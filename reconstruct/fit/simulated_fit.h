@@ -13,15 +13,15 @@
 //   cov log theta = (1 + 1/R) M C M',   M = (G' W G)^-1 G' W
 // so that what the statistics do not feel, beside their spread from seed to seed, has a large sd.
 // sd_q is at least 0.3 % of the statistic's largest quantile, and C that on its diagonal: no model
-// is nearer to what it models, and one without noise has no spread. Where J at its best is above that of another
-// seed's data the covariance is as many times larger. The search keeps to the model's range.
-// That is the bend of J at one point, and J may be as low far away. Acceptable is a theta whose J
-// is no greater than another seed of the estimate would have as data, or no farther above the best
-// J than J differs between such seeds. The sd is no less than 1 / 1.96 of the way to the farthest
-// acceptable theta tried. As long as that leaves a parameter known, the others are fitted again
-// with it held 3 sd or more away, on either side (BOBYQA in that part of the search's box, from
-// three places), until nothing acceptable is found there or it is no longer known. Of one that is
-// not known the sd is a least one; it is infinite where the search ended near its bounds.
+// is nearer to what it models, and one without noise has no spread. Where J at its best is above
+// that of another seed's data the covariance is as many times larger. The search keeps to the
+// model's range. That is the bend of J at one point, and J may be as low far away. Acceptable is a
+// theta whose J is no greater than another seed of the estimate would have as data, or no farther
+// above the best J than J differs between such seeds. The sd is no less than 1 / 1.96 of the way to
+// the farthest acceptable theta tried. As long as that leaves a parameter known, the others are
+// fitted again with it held 3 sd or more away, on either side (BOBYQA in that part of the search's
+// box, from three places), until nothing acceptable is found there or it is no longer known. Of one
+// that is not known the sd is a least one; it is infinite where the search ended near its bounds.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_SIMULATED_FIT_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_SIMULATED_FIT_H_
