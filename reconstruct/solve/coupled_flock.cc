@@ -15,8 +15,6 @@ namespace {
 
 constexpr double kMargin = 2;  // beyond reach, so that a frozen neighbourhood stays whole [m]
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-7, kMostDamping = 1e6;
-constexpr double kEnough = 0.1;  // fall of the cost that counts, for each animal
-constexpr GradientStop kStepStop{.share = 3e-3, .most = 200};
 
 }  // namespace
 
@@ -64,11 +62,16 @@ std::vector<CoupledFlock::Knot> CoupledFlock::States() const {
 }
 
 void CoupledFlock::Relinearize() {
+  double common = 0;
   for (Bird& bird : birds_) {
     double sum = 0;
     for (std::size_t k = 2; k < bird.path.size(); k += 3) sum += bird.path[k];
     bird.reference_depth = std::exp(sum * 3 / static_cast<double>(bird.path.size()));
+    common += std::log(bird.reference_depth) / static_cast<double>(birds_.size());
   }
+  // A scene that shrinks would have smaller accelerations.
+  if (!common_log_depth_) common_log_depth_ = common;
+  for (Bird& bird : birds_) bird.reference_depth *= std::exp(*common_log_depth_ - common);
   const std::vector<Knot> states = States();
   const double reach = forces.Reach() + kMargin;
   may_hear_.assign(lines_.size(), {});
@@ -149,6 +152,7 @@ double CoupledFlock::ForcePriors(Eigen::MatrixXd* matrix, Eigen::VectorXd* gradi
                                                      0.7,  0.1, 0.7, 1,   0.7};
   // Of the target and its steps, in seconds of flight.
   constexpr double kTargetSd = 1, kTargetStepSd = 0.05;
+  constexpr double kHeld = 1e-3, kHeldSeparation = 0.02;
   const double flight = std::exp(usual_log_speed_);
   double cost = 0;
   // (x_i - x_j - usual) / sd, without x_j where j < 0; places in the border.
@@ -164,11 +168,14 @@ double CoupledFlock::ForcePriors(Eigen::MatrixXd* matrix, Eigen::VectorXd* gradi
     (*matrix)(j, i) -= w;
     (*gradient)[j] -= r / sd;
   };
-  const Eigen::VectorXd off = forces.unknowns - usual_;
+  Eigen::VectorXd off = forces.unknowns - usual_;
+  off[kLogAlphaS] -= std::log(separation_);
   const int first = model_.shared();
+  add(kFlockLogSpeed, -1, shared_[kFlockLogSpeed] - usual_log_speed_, kHeld);
   for (int k = 0; k < kForceScalars; ++k) {
     const bool told = k != kLogDrive && k != kLogGoal && k != kLogRange;  // by what birds are
-    const double sd = (told ? tightness : 1) * kSd[static_cast<std::size_t>(k)];
+    double sd = (told ? tightness : 1) * kSd[static_cast<std::size_t>(k)];
+    if (k == kLogAlphaS && separation_ < 1) sd = kHeldSeparation;
     if (IsLength(k)) {
       add(first + k, kFlockLogSpeed, off[k] - (shared_[kFlockLogSpeed] - usual_log_speed_), sd);
     } else {
@@ -195,6 +202,11 @@ void CoupledFlock::Move(const Eigen::VectorXd& step) {
   forces.unknowns += step.tail(forces.size());
 }
 
+void CoupledFlock::HoldSeparation(double share) {
+  separation_ = share;
+  forces.unknowns[kLogAlphaS] = usual_[kLogAlphaS] + std::log(share);
+}
+
 void CoupledFlock::FitForces(int max_iterations) {
   double damping = kFirstDamping, cost = Cost();
   for (int iteration = 0; iteration < max_iterations && damping < kMostDamping; ++iteration) {
@@ -207,7 +219,7 @@ void CoupledFlock::FitForces(int max_iterations) {
     forces.unknowns -= matrix.llt().solve(gradient_.tail(n));
     const double candidate = Cost();
     if (candidate < cost) {
-      const bool still = cost - candidate < kEnough * static_cast<double>(birds_.size());
+      const bool still = cost - candidate < Effort{}.enough * static_cast<double>(birds_.size());
       cost = candidate;
       damping = std::max(0.1 * damping, kLeastDamping);
       if (still) return;
@@ -218,7 +230,7 @@ void CoupledFlock::FitForces(int max_iterations) {
   }
 }
 
-bool CoupledFlock::Minimize(int max_iterations) {
+bool CoupledFlock::Minimize(int max_iterations, const Effort& effort) {
   double damping = kFirstDamping, cost = Cost();
   bool linearized = false;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
@@ -231,10 +243,10 @@ bool CoupledFlock::Minimize(int max_iterations) {
     }
     const std::vector<Bird> birds = birds_;
     const Eigen::VectorXd shared = shared_, unknowns = forces.unknowns;
-    Move(Solve<1>(-gradient_, kStepStop));
+    Move(Solve<1>(-gradient_, effort.step));
     const double candidate = Cost();
     if (candidate < cost) {
-      const bool still = cost - candidate < kEnough * static_cast<double>(birds_.size());
+      const bool still = cost - candidate < effort.enough * static_cast<double>(birds_.size());
       cost = candidate;
       damping = std::max(0.1 * damping, kLeastDamping);
       linearized = false;

@@ -9,7 +9,8 @@
 // (conjugate_gradients.h), preconditioned by every animal as if the others stood still
 // (arrow_system.h): its cost is linear in the animals and in those that each one hears.
 // Who hears whom is frozen between calls of Relinearize. Forces bring no scale of their own: their
-// lengths are known, a little, as times of flight.
+// lengths are known, a little, as times of flight; and the flock's speed, with it the common scale,
+// is held where it was.
 // (Tremolet, "Accounting for an imperfect model in 4D-Var", 2006)
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_COUPLED_FLOCK_H_
@@ -17,6 +18,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "reconstruct/cost_functions/markov.h"
@@ -26,6 +28,12 @@
 #include "reconstruct/solve/flock_forces.h"
 
 namespace flocklift::internal {
+
+// When to be content.
+struct Effort {
+  double enough = 0.1;  // fall of the cost that counts, for each animal
+  GradientStop step{.share = 3e-3, .most = 200};
+};
 
 class CoupledFlock {
  public:
@@ -43,7 +51,10 @@ class CoupledFlock {
   // The forces that explain the present paths best.
   void FitForces(int max_iterations);
   // Paths and forces. Returns whether the cost stands still.
-  bool Minimize(int max_iterations);
+  bool Minimize(int max_iterations, const Effort& effort = {});
+  // Holds the weight of separation at that share of the usual; 1 lets it go. While it is small
+  // animals can pass through each other to where all else would have them.
+  void HoldSeparation(double share);
 
   // Vectors of all unknowns: paths and own scalars animal by animal, then the flock's, then the
   // forces'. Gradient of the cost at the present state, and after it the Gauss-Newton matrix there
@@ -131,6 +142,8 @@ class CoupledFlock {
   std::vector<std::vector<std::size_t>> may_hear_;  // lines, of every line
   Eigen::VectorXd usual_;                           // unknowns of the forces of usual birds,
   double usual_log_speed_ = 0;                      // which fly that fast
+  double separation_ = 1;                           // of theirs, below 1 held
+  std::optional<double> common_log_depth_;          // mean of the reference depths, held
   std::vector<Line> lines_;
   std::vector<std::size_t> near_, far_;  // lines that every line hears
   std::vector<Matrix36> by_near_;        // of its error, by (x, v) of each that is near

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reconstruct/solve/coupled_flock.h"
+#include "reconstruct/solve/force_search.h"
 #include "reconstruct/solve/hidden_sightings.h"
 #include "reconstruct/solve/window_solver.h"
 #include "simulate/core/options.h"
@@ -18,69 +19,12 @@ namespace {
 
 using namespace internal;  // NOLINT: the method's own parts
 
-constexpr int kIterations = 6;    // of one round, at most
+constexpr double kMoreThanChance = 0.6;  // probability from which on forces count
 constexpr double kUnsure = 1.35;  // errors over what the linearised posterior says, as measured
-
-struct Flock {
-  std::vector<Bird> birds;
-  Eigen::VectorXd shared, forces;
-  MarkovProcess noise;
-  double cost = 0;
-};
-
-// Forces and paths from where they are, with the noise that they leave from round to
-// round, at first as much as the batch method's accelerations.
-void Follow(const DynamicsOptions& options, const BatchModel& model, Flock* flock) {
-  CoupledFlock coupled(model, &flock->birds, &flock->shared);
-  coupled.noise = {std::max(options.noise_sd, model.spreads.acceleration.sd), options.noise_time};
-  coupled.FitForces(2 * kIterations);
-  for (int round = 0; round < options.rounds; ++round) {
-    coupled.Minimize(kIterations);
-    coupled.Relinearize();
-    const double sd = coupled.noise.sd;
-    coupled.noise.sd =
-        std::max(options.noise_sd, std::clamp(coupled.EstimateNoise(), 0.5 * sd, 1.5 * sd));
-  }
-  coupled.Minimize(kIterations);
-  flock->forces = coupled.forces.unknowns;
-  flock->noise = coupled.noise;
-  flock->cost = coupled.Cost();
-}
-
-// The same, but at first with the forces of usual birds: depths that are wrong make all of a
-// neighbour's influence look weaker than it is, and weak forces leave them wrong.
-void FollowUsual(const BatchModel& model, const MarkovProcess& noise, Flock* flock) {
-  constexpr double kTight = 0.1;
-  CoupledFlock coupled(model, &flock->birds, &flock->shared);
-  coupled.noise = {2 * noise.sd, noise.time};
-  coupled.tightness = kTight;
-  coupled.FitForces(2 * kIterations);
-  coupled.Minimize(kIterations);
-  coupled.noise = noise;
-  for (const double tightness : {kTight, 1.0}) {
-    coupled.tightness = tightness;
-    coupled.Relinearize();
-    coupled.Minimize(kIterations);
-  }
-  flock->forces = coupled.forces.unknowns;
-  flock->noise = noise;
-  flock->cost = coupled.Cost();
-}
-
-// Goes on with what is known of forces and noise. Returns how sure depths are then.
-CoupledFlock::DepthSds Polish(const BatchModel& model, Flock* flock) {
-  CoupledFlock coupled(model, &flock->birds, &flock->shared);
-  coupled.forces.unknowns = flock->forces;
-  coupled.noise = flock->noise;
-  coupled.Relinearize();
-  coupled.Minimize(kIterations);
-  flock->forces = coupled.forces.unknowns;
-  return coupled.Depths();
-}
 
 // Where the common scale drifts while forces are found, it is not because forces know it: it stays
 // that of the batch solution.
-void KeepScale(const std::vector<Bird>& before, const BatchModel& model, Flock* flock) {
+void KeepScale(const std::vector<Bird>& before, const BatchModel& model, FollowedFlock* flock) {
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     for (std::size_t k = 2; k < before[i].path.size(); k += 3) {
@@ -98,48 +42,6 @@ void KeepScale(const std::vector<Bird>& before, const BatchModel& model, Flock* 
   for (int k = model.depth.first; k < model.depth.end(); ++k) flock->shared[k] -= grown;
 }
 
-// How far the depths of two solutions are apart after one common scale, by animal: halfway to what
-// all have in common.
-std::vector<double> Apart(const std::vector<Bird>& a, const std::vector<Bird>& b) {
-  std::vector<double> sums(a.size()), squares(a.size()), counts(a.size());
-  double sum = 0, square = 0, count = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t k = 2; k < a[i].path.size(); k += 3) {
-      const double off = a[i].path[k] - b[i].path[k];
-      sums[i] += off;
-      squares[i] += off * off;
-      ++counts[i];
-    }
-    sum += sums[i];
-    square += squares[i];
-    count += counts[i];
-  }
-  const double mean = sum / count, common = square / count - mean * mean;
-  std::vector<double> apart(a.size());
-  for (std::size_t i = 0; i < apart.size(); ++i) {
-    const double own = (squares[i] - 2 * mean * sums[i]) / counts[i] + mean * mean;
-    apart[i] = std::sqrt(std::max(0.0, 0.5 * (own + common)));
-  }
-  return apart;
-}
-
-struct Followed {
-  Flock flock;
-  std::vector<double> apart;  // of the solutions from both starts, by animal [log depth]
-};
-
-// From the batch solution on, from both starts: which is better is not seen before the end.
-Followed FollowForces(const DynamicsOptions& options, const WindowToRefine& window) {
-  Flock fitted{*window.birds, *window.shared, {}, {}};
-  Flock usual = fitted;
-  Follow(options, window.model, &fitted);
-  FollowUsual(window.model, fitted.noise, &usual);
-  Followed followed;
-  followed.apart = Apart(fitted.birds, usual.birds);
-  followed.flock = usual.cost < fitted.cost ? std::move(usual) : std::move(fitted);
-  return followed;
-}
-
 // Moves `to` by `share` of the way to `from`.
 template <typename Values>
 void Approach(double share, const Values& from, Values* to) {
@@ -154,16 +56,19 @@ struct Both {
 
   // How far to go from one to the other, for the least variance of errors that are correlated:
   // their covariance follows from how far the solutions are apart (Bates and Granger, "The
-  // combination of forecasts", 1969).
+  // combination of forecasts", 1969). Where that is farther than uncorrelated errors would be, both
+  // are less sure than they say, in proportion.
   double LeastVarianceShare() const {
-    double gain = 0, squares = 0;
+    double of_batch = 0, of_forces = 0, squares = 0;
     for (std::size_t i = 0; i < off.size(); ++i) {
       for (std::size_t k = 0; k < off[i].size(); ++k) {
-        gain += batch[i][k] - forces[i][k];
+        of_batch += batch[i][k];
+        of_forces += forces[i][k];
         squares += off[i][k] * off[i][k];
       }
     }
-    return squares > 0 ? std::clamp(0.5 + 0.5 * gain / squares, 0.0, 1.0) : 1;
+    squares = std::min(squares, of_batch + of_forces);
+    return squares > 0 ? std::clamp(0.5 + 0.5 * (of_batch - of_forces) / squares, 0.0, 1.0) : 1;
   }
   // The share of forces in a mixture's variances, and what the two are apart. With forces neither
   // of two starts is sure where these end `apart`.
@@ -199,7 +104,7 @@ Both SideBySide(const WindowToRefine& window, const CoupledFlock::DepthSds& sds,
   return both;
 }
 
-void Describe(const Flock& flock, DynamicsReport* report) {
+void Describe(const FollowedFlock& flock, DynamicsReport* report) {
   FlockForces f;
   f.unknowns = flock.forces;
   report->forces = {
@@ -223,19 +128,21 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     if (hidden.count() == 0) return;
     ++report.windows;
     std::vector<double> batch_errors, errors;
-    Followed followed;
-    Flock& flock = followed.flock;
+    FollowedFlock flock;
+    double odds = 1;
     SolveWindow(batch_options, knowledge, hidden.rest(), window.belief, window.first_frame, fps,
                 threads, {}, [&](const WindowToRefine& masked) {
                   batch_errors = hidden.ErrorsOf(*masked.birds, masked.model.knot_interval);
-                  followed = FollowForces(options, masked);
+                  flock = FollowForces(options, masked);
+                  const double less = masked.model.spreads.acceleration.sd / flock.noise.sd;
+                  odds = less * less;
                   errors = hidden.ErrorsOf(flock.birds, masked.model.knot_interval);
                 });
     report.hidden += hidden.count();
     batch_sum += MeanOf(batch_errors) * static_cast<double>(hidden.count());
     dynamics_sum += MeanOf(errors) * static_cast<double>(hidden.count());
-    const double better = ProbabilityOfBetter(errors, batch_errors);
-    if (!(better > 0.5)) return;
+    const double better = ProbabilityOfBetter(errors, batch_errors, odds);
+    if (!(better > kMoreThanChance)) return;
     // The same knots: what is hidden lies between sightings.
     std::vector<Bird> birds = *window.birds;
     for (std::size_t i = 0; i < birds.size(); ++i) {
@@ -251,7 +158,7 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     if (!(weight > 0)) return;
     ++report.kept;
     report.weight += weight;
-    *window.posterior = both.Mixed(weight, followed.apart);
+    *window.posterior = both.Mixed(weight, flock.apart);
     for (std::size_t i = 0; i < flock.birds.size(); ++i) {
       Approach(weight, flock.birds[i].path, &(*window.birds)[i].path);
       Approach(weight, flock.birds[i].own, &(*window.birds)[i].own);

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Flock dynamics on top of the batch method: the forces between the animals are estimated together
-// with their paths (coupled_flock.h), from the batch solution on, with as much noise as they leave.
-// They have to earn their place: a part of the sightings is hidden from both, and only where forces
-// predict these better than the batch solution does they count, by the probability that this gives
-// them (Bayesian model averaging; Hoeting et al., 1999); and so far as they leave depths less open
-// than batch does. Depths are w times those with forces plus 1 - w times those of batch. What is
-// hidden must last longer than an acceleration does, or smoothness alone predicts it as well.
+// with their paths (force_search.h), with as much noise as they leave. They have to earn their
+// place: a part of the sightings is hidden from both, and how well each predicts these tells how
+// probable it is that forces are nearer to the truth; before, the odds are the variance of the
+// batch method's accelerations over that of what forces leave of them. Where that is more than
+// chance they count by it (Bayesian model averaging; Hoeting et al., 1999), and so far as they
+// leave depths less open than batch does: depths are w times those with forces plus 1 - w times
+// those of batch. What is hidden must last longer than an acceleration does, or smoothness alone
+// predicts it as well.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
@@ -17,8 +19,8 @@
 namespace flocklift {
 
 struct DynamicsOptions {
-  double hidden = 0.1;
-  double hidden_time = 1.5;
+  double hidden = 0.2;
+  double hidden_time = 2;
   double noise_sd = 0.3;
   double noise_time = 0.7;
   int rounds = 3;

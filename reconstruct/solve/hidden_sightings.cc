@@ -76,11 +76,12 @@ double MeanOf(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-double ProbabilityOfBetter(const std::vector<double>& errors, const std::vector<double>& others) {
-  if (errors.empty() || errors.size() != others.size()) return 0.5;
+double ProbabilityOfBetter(const std::vector<double>& errors, const std::vector<double>& others,
+                           double odds) {
+  if (errors.empty() || errors.size() != others.size()) return odds / (odds + 1);
   // What is averaged are square roots: the scale is their mean squared.
   const double log_scales = 2 * std::log(MeanOf(others) / MeanOf(errors));
-  return 1 / (1 + std::exp(-2 * static_cast<double>(errors.size()) * log_scales));
+  return odds / (odds + std::exp(-2 * static_cast<double>(errors.size()) * log_scales));
 }
 
 }  // namespace flocklift::internal

@@ -39,10 +39,11 @@ class HiddenSightings {
 
 double MeanOf(const std::vector<double>& values);
 
-// How probable it is, from even odds, that what made `errors` of the pieces is nearer to the truth
-// than what made `others`. Errors of pieces come from one distribution of unknown scale each, two
-// coordinates a piece, so that the likelihoods stand as the scales do to the power of -2 n.
-double ProbabilityOfBetter(const std::vector<double>& errors, const std::vector<double>& others);
+// How probable it is, from `odds` before, that what made `errors` of the pieces is nearer to the
+// truth than what made `others`. Errors of pieces come from one distribution of unknown scale each,
+// two coordinates a piece, so that the likelihoods stand as the scales do to the power of -2 n.
+double ProbabilityOfBetter(const std::vector<double>& errors, const std::vector<double>& others,
+                           double odds = 1);
 
 }  // namespace flocklift::internal
 

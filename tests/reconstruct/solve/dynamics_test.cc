@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "reconstruct/solve/coupled_flock.h"
+#include "reconstruct/solve/force_search.h"
 #include "reconstruct/solve/hidden_sightings.h"
 #include "reconstruct/solve/window_solver.h"
 #include "tests/reconstruct/circling_flock.h"
@@ -62,6 +63,8 @@ TEST(HiddenSightings, BetterIsAsProbableAsTheScalesOfErrorsSay) {
   // A hair's breadth says nothing, however steady.
   EXPECT_NEAR(ProbabilityOfBetter({1, 1.1, 0.9}, {1.001, 1.101, 0.901}), 0.5, 0.01);
   EXPECT_EQ(ProbabilityOfBetter({}, {}), 0.5);
+  EXPECT_NEAR(ProbabilityOfBetter({root, root}, {1, 1}, 3), 48.0 / 49, 1e-12);
+  EXPECT_EQ(ProbabilityOfBetter({1, 3, 1}, {2, 1, 2}, 3), 0.75);
 }
 
 // Calls with the coupled flock of a batch solution.
@@ -194,6 +197,50 @@ TEST(CoupledFlock, MinimizeLowersTheCostToWhereItStays) {
               flock.Minimize(30);
               EXPECT_NEAR(flock.Cost(), after, 1e-2 * after);
             });
+}
+
+// Separation stays where it is held, and nothing moves the common scale.
+TEST(CoupledFlock, HoldsWhatItIsToldToHold) {
+  WithFlock({.count = 5, .frames = 60}, {},
+            [](const internal::WindowToRefine& window, internal::CoupledFlock& flock) {
+              const double usual = flock.forces[internal::kLogAlphaS];
+              const double speed = (*window.shared)[internal::kFlockLogSpeed];
+              flock.HoldSeparation(0.1);
+              flock.FitForces(5);
+              flock.Minimize(10);
+              EXPECT_NEAR(flock.forces[internal::kLogAlphaS] / usual, 0.1, 0.01);
+              EXPECT_NEAR((*window.shared)[internal::kFlockLogSpeed], speed, 0.01);
+              flock.HoldSeparation(1);
+              EXPECT_NEAR(flock.forces[internal::kLogAlphaS] / usual, 1, 0.01);
+            });
+}
+
+// The most probable of its starts: never less probable than the one that the batch solution gives.
+TEST(ForceSearch, IsAtLeastAsProbableAsFromTheBatchSolutionAlone) {
+  const FlockSpec spec{.count = 5, .frames = 90};
+  int asked = 0;
+  internal::SolveWindow({}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
+                        [&](const internal::WindowToRefine& window) {
+                          ++asked;
+                          const auto found = internal::FollowForces({}, window);
+                          ASSERT_EQ(found.apart.size(), window.birds->size());
+                          for (const double apart : found.apart) EXPECT_GE(apart, 0);
+                          internal::CoupledFlock fitted(window.model, window.birds, window.shared);
+                          fitted.noise = {window.model.spreads.acceleration.sd, 0.7};
+                          fitted.FitForces(12);
+                          for (int round = 0; round < 3; ++round) {
+                            fitted.Minimize(6);
+                            fitted.Relinearize();
+                            fitted.noise.sd = fitted.EstimateNoise();
+                          }
+                          double accelerations = 0;
+                          for (const internal::Bird& bird : *window.birds)
+                            accelerations += 3.0 * bird.knots;
+                          const double improbable =
+                              fitted.Cost() + accelerations * std::log(fitted.noise.sd);
+                          EXPECT_LT(found.improbable, improbable + 0.02 * accelerations);
+                        });
+  EXPECT_EQ(asked, 1);
 }
 
 // A sd for every sighting; more noise leaves depths less certain.

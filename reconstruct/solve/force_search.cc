@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/solve/force_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace flocklift::internal {
+namespace {
+
+constexpr int kIterations = 6;  // of one round, at most
+constexpr int kAnnealIterations = 10;
+constexpr Effort kRough{.enough = 0.5, .step = {.share = 3e-2, .most = 60}};
+
+void Finish(const CoupledFlock& coupled, FollowedFlock* flock) {
+  double accelerations = 0;
+  for (const Bird& bird : flock->birds) accelerations += 3.0 * bird.knots;
+  flock->forces = coupled.forces.unknowns;
+  flock->noise = coupled.noise;
+  flock->improbable = coupled.Cost() + accelerations * std::log(coupled.noise.sd);
+}
+
+// Forces and paths from where they are, with the noise that they leave from round to
+// round, at first as much as the batch method's accelerations.
+void FollowFitted(const DynamicsOptions& options, const BatchModel& model, FollowedFlock* flock) {
+  CoupledFlock coupled(model, &flock->birds, &flock->shared);
+  coupled.noise = {std::max(options.noise_sd, model.spreads.acceleration.sd), options.noise_time};
+  coupled.FitForces(2 * kIterations);
+  for (int round = 0; round < options.rounds; ++round) {
+    coupled.Minimize(kIterations);
+    coupled.Relinearize();
+    const double sd = coupled.noise.sd;
+    coupled.noise.sd =
+        std::max(options.noise_sd, std::clamp(coupled.EstimateNoise(), 0.5 * sd, 1.5 * sd));
+  }
+  coupled.Minimize(kIterations);
+  Finish(coupled, flock);
+}
+
+// Moves depths by `share` of the way to the flock's mean at every knot, and speeds to its own.
+void DrawTogether(double share, FollowedFlock* flock) {
+  std::vector<double> sums, counts;
+  for (const Bird& bird : flock->birds) {
+    const std::size_t first = static_cast<std::size_t>(bird.first_knot), n = bird.path.size() / 3;
+    if (sums.size() < first + n) {
+      sums.resize(first + n);
+      counts.resize(first + n);
+    }
+    for (std::size_t c = 0; c < n; ++c) {
+      sums[first + c] += bird.path[3 * c + 2];
+      ++counts[first + c];
+    }
+  }
+  for (Bird& bird : flock->birds) {
+    const std::size_t first = static_cast<std::size_t>(bird.first_knot), n = bird.path.size() / 3;
+    for (std::size_t c = 0; c < n; ++c) {
+      double& depth = bird.path[3 * c + 2];
+      depth += share * (sums[first + c] / counts[first + c] - depth);
+    }
+    double& speed = bird.own[kOwnLogSpeed];
+    speed += share * (flock->shared[kFlockLogSpeed] - speed);
+  }
+}
+
+void FollowAnnealed(const DynamicsOptions& options, const BatchModel& model, double together,
+                    FollowedFlock* flock) {
+  constexpr double kTight = 0.1, kSoft = 0.1, kHarder = 3;
+  constexpr double kCalmer = 0.7, kCalmest = 0.25;
+  constexpr int kFreeRounds = 2;
+  DrawTogether(together, flock);
+  CoupledFlock coupled(model, &flock->birds, &flock->shared);
+  const double noise = std::max(options.noise_sd, model.spreads.acceleration.sd);
+  coupled.noise = {noise, options.noise_time};
+  coupled.tightness = kTight;
+  const auto settle = [&coupled] {
+    coupled.Minimize(kAnnealIterations, kRough);
+    coupled.Relinearize();
+  };
+  coupled.HoldSeparation(kSoft);
+  coupled.FitForces(2 * kIterations);
+  for (; coupled.noise.sd > kCalmest * noise; coupled.noise.sd *= kCalmer) settle();
+  for (double separation = kSoft; separation < 1; separation *= kHarder) {
+    coupled.HoldSeparation(separation);
+    settle();
+  }
+  coupled.HoldSeparation(1);
+  for (const double tightness : {kTight, 1.0}) {
+    coupled.tightness = tightness;
+    for (int round = 0; round < kFreeRounds; ++round) {
+      coupled.noise.sd = std::max(options.noise_sd, coupled.EstimateNoise());
+      settle();
+    }
+  }
+  coupled.Minimize(kAnnealIterations);
+  Finish(coupled, flock);
+}
+
+// How far the depths of two solutions are apart after one common scale, by animal: halfway to what
+// all have in common.
+std::vector<double> Apart(const std::vector<Bird>& a, const std::vector<Bird>& b) {
+  std::vector<double> sums(a.size()), squares(a.size()), counts(a.size());
+  double sum = 0, square = 0, count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 2; k < a[i].path.size(); k += 3) {
+      const double off = a[i].path[k] - b[i].path[k];
+      sums[i] += off;
+      squares[i] += off * off;
+      ++counts[i];
+    }
+    sum += sums[i];
+    square += squares[i];
+    count += counts[i];
+  }
+  const double mean = sum / count, common = square / count - mean * mean;
+  std::vector<double> apart(a.size());
+  for (std::size_t i = 0; i < apart.size(); ++i) {
+    const double own = (squares[i] - 2 * mean * sums[i]) / counts[i] + mean * mean;
+    apart[i] = std::sqrt(std::max(0.0, 0.5 * (own + common)));
+  }
+  return apart;
+}
+
+// Annealed starts: how far animals are drawn together. Without sizes the batch solution hardly
+// knows who is in front. A start takes longer the more neighbours there are, so that large flocks
+// have time for one.
+std::vector<double> AnnealedStarts(bool sizes, std::size_t animals) {
+  constexpr std::size_t kFew = 30;
+  if (animals > kFew) return {sizes ? 0.5 : 1};
+  return sizes ? std::vector<double>{0.5, 0} : std::vector<double>{0.5, 1};
+}
+
+}  // namespace
+
+FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine& window) {
+  const FollowedFlock start{*window.birds, *window.shared, {}, {}, 0, {}};
+  FollowedFlock best = start;
+  FollowFitted(options, window.model, &best);
+  FollowedFlock next;
+  for (const double together : AnnealedStarts(window.model.use_size, start.birds.size())) {
+    FollowedFlock flock = start;
+    FollowAnnealed(options, window.model, together, &flock);
+    if (flock.improbable < best.improbable) std::swap(flock, best);
+    if (next.birds.empty() || flock.improbable < next.improbable) next = std::move(flock);
+  }
+  best.apart = Apart(best.birds, next.birds);
+  return best;
+}
+
+CoupledFlock::DepthSds Polish(const BatchModel& model, FollowedFlock* flock) {
+  CoupledFlock coupled(model, &flock->birds, &flock->shared);
+  coupled.forces.unknowns = flock->forces;
+  coupled.noise = flock->noise;
+  coupled.Relinearize();
+  coupled.Minimize(kIterations);
+  flock->forces = coupled.forces.unknowns;
+  return coupled.Depths();
+}
+
+}  // namespace flocklift::internal

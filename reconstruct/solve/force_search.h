@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The search for paths and forces together (coupled_flock.h), from the batch solution on. Their
+// cost has many minima: depths that are wrong make all of a neighbour's influence look weaker than
+// it is, and weak forces leave them wrong; animals that hold each other's places cannot pass, for
+// separation keeps them apart. So it is sought from several starts:
+//   fitted    the batch solution, with the forces that explain it best
+//   annealed  animals drawn towards the flock's mean depth, with the forces of usual birds; their
+//             noise falls below what it will be, then separation grows to what it is
+// and the most probable counts: of least cost + n log(sd of the noise), of n accelerations.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_SEARCH_H_
+#define FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_SEARCH_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "reconstruct/solve/coupled_flock.h"
+#include "reconstruct/solve/dynamics.h"
+#include "reconstruct/solve/window_solver.h"
+
+namespace flocklift::internal {
+
+struct FollowedFlock {
+  std::vector<Bird> birds;
+  Eigen::VectorXd shared, forces;
+  MarkovProcess noise;
+  double improbable = 0;      // minus log of its probability, but for a constant
+  std::vector<double> apart;  // from the next best start's, by animal [log depth]
+};
+
+FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine& window);
+
+// Goes on with what is known of forces and noise. Returns how sure depths are then.
+CoupledFlock::DepthSds Polish(const BatchModel& model, FollowedFlock* flock);
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_SEARCH_H_
