@@ -14,23 +14,40 @@
 #include "simulate/camera/camera_io.h"
 #include "simulate/core/check.h"
 #include "simulate/core/io.h"
+#include "simulate/core/model_terms.h"
 #include "simulate/core/parameters.h"
 #include "simulate/core/scene_io.h"
 #include "simulate/core/text.h"
+#include "simulate/flock/force_types.h"
 #include "tools/evaluate_files.h"
 #include "tools/fit_comparison.h"
 #include "tools/fit_kernels.h"
+#include "tools/fit_list.h"
 #include "tools/stage.h"
 #include "tools/walls.h"
 
 namespace flocklift {
 namespace {
 
+// What NAME=VALUE says.
+double ValueIn(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals != std::string::npos) {
+    if (const auto value = ParseReal(std::string_view(text).substr(equals + 1))) return *value;
+  }
+  Check(false, "--set " + text + " is not NAME=VALUE");
+  return 0;
+}
+
 // The scene's numbers, then the start's, then those that are set.
 ModelSpec ModelOf(const FitCommand& command, const std::optional<Scene>& scene) {
   ModelSpec model;
   model.where = "--model";
-  if (scene) model = internal::SpeciesOf(*scene, command.model).model;
+  if (scene) {
+    const SpeciesSpec& species = internal::SpeciesOf(*scene, command.model);
+    model = species.model;
+    for (const ModelSpec& force : species.forces) model.terms.push_back(CompleteForce(force));
+  }
   if (!command.start.empty()) {
     const ModelSpec start = ReadParameters(command.start).model;
     if (start.name != command.model) {
@@ -41,16 +58,24 @@ ModelSpec ModelOf(const FitCommand& command, const std::optional<Scene>& scene) 
     for (const auto& [name, value] : start.parameters) model.parameters[name] = value;
     for (const auto& [name, word] : start.choices) model.choices[name] = word;
     for (const auto& [name, where] : start.where_of) model.where_of[name] = where;
+    if (!scene) {
+      for (const ModelSpec& term : start.terms) model.terms.push_back(CompleteForce(term));
+    }
+    for (const std::string& name : NumberNames(start)) {
+      if (name.find('.') == std::string::npos) continue;
+      SetNumber(name, *FindNumber(start, name), start.where, &model);
+    }
   }
   model.name = command.model;
   for (const std::string& text : command.set) {
     const auto equals = text.find('=');
-    const std::optional<double> value = equals == std::string::npos
-                                            ? std::nullopt
-                                            : ParseReal(std::string_view(text).substr(equals + 1));
-    Check(value.has_value(), "--set " + text + " is not NAME=VALUE");
+    const double value = ValueIn(text);
     const std::string name = text.substr(0, equals);
-    model.parameters[name] = *value;
+    if (name.find('.') != std::string::npos) {
+      SetNumber(name, value, "--set " + text, &model);
+      continue;
+    }
+    model.parameters[name] = value;
     model.where_of[name] = "--set " + text;
   }
   return model;
@@ -145,16 +170,19 @@ nlohmann::ordered_json AsJson(const FitResult& result) {
 }
 
 void PrintTable(const FitResult& result) {
-  fmt::print(stderr, "  {:<12} {:>10} {:>10}   {:>13}\n", "weight", "value", "sd", "differences");
+  std::size_t width = 12;
+  for (const FittedWeight& weight : result.weights) width = std::max(width, weight.name.size());
+  fmt::print(stderr, "  {:<{}} {:>10} {:>10}   {:>13}\n", "weight", width, "value", "sd",
+             "differences");
   for (const FittedWeight& weight : result.weights) {
     const std::string plain =
         std::isfinite(weight.plain) ? fmt::format("{:.4g}", weight.plain) : "";
     if (weight.determined) {
-      fmt::print(stderr, "  {:<12} {:>10.4g} {:>10.2g}   {:>13}\n", weight.name, weight.value,
-                 weight.sd, plain);
+      fmt::print(stderr, "  {:<{}} {:>10.4g} {:>10.2g}   {:>13}\n", weight.name, width,
+                 weight.value, weight.sd, plain);
     } else {
-      fmt::print(stderr, "  {:<12} {:>10} {:>10.2g}   {:>13}\n", weight.name, "unknown", weight.sd,
-                 plain);
+      fmt::print(stderr, "  {:<{}} {:>10} {:>10.2g}   {:>13}\n", weight.name, width, "unknown",
+                 weight.sd, plain);
     }
   }
 }
@@ -206,6 +234,10 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
     }
   }
   problem.model = ModelOf(command, problem.scene);
+  if (command.list) {
+    fmt::print("{}", ListNumbers(problem.model));
+    return;
+  }
   if (!command.camera.empty()) {
     stage.AddInput(command.camera);
     problem.camera = ReadCamera(command.camera);
@@ -254,7 +286,10 @@ void AddFitCommand(CLI::App& app) {
       "  flocklift fit first.csv --also second.csv --model kernels --out kernels\n"
       "  flocklift fit trajectories.csv --model bswarm --start parameters.toml "
       "--walls=0,0,0,1,1,1\n"
-      "  flocklift fit trajectories.csv --model shape --scene moon.toml --free alpha,w_dis,s_max",
+      "  flocklift fit trajectories.csv --model shape --scene moon.toml --free alpha,w_dis,s_max\n"
+      "  flocklift fit trajectories.csv --model forces --scene scene.toml --free "
+      "alignment.gain,drag.rate\n"
+      "  flocklift fit trajectories.csv --model forces --scene scene.toml --list",
       {.fps = true, .seed = true}, &RunFit, &command);
   sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
   sub->add_option("--model", command->model,
@@ -269,17 +304,19 @@ void AddFitCommand(CLI::App& app) {
   sub->add_option(
          "--free", command->free,
          "what to fit, separated by commas: weights and, of smooth models (tapers above 0, no "
-         "cruise, noise_time 0), radii too; of kernels attraction, alignment; default: all "
-         "weights, "
-         "or kernels")
+         "cruise, noise_time 0), radii too; of a scene's [[species.force]] by type and parameter, "
+         "alignment.gain, with a number from the second of a type on, alignment2.gain; of kernels "
+         "attraction, alignment; default: all weights, or kernels")
       ->delimiter(',');
   sub->add_option("--set", command->set, "NAME=VALUE of parameters that are not free")
       ->delimiter(',');
   sub->add_option("--start", command->start, "parameters.toml that gives what is not free");
   sub->add_option("--scene", command->scene,
-                  "of simulated statistics: scene file that says what the animals fly to and "
-                  "around (shapes, paths, goals, obstacles) and what the numbers of --model start "
-                  "from; shape, morph and crowd need it");
+                  "scene file that says what the animals fly to and around (shapes, paths, goals, "
+                  "obstacles, walls), what forces it adds to --model and what all numbers start "
+                  "from; shape, morph, crowd and forces need it");
+  sub->add_flag("--list", command->list,
+                "print what --free and --set may name, with its values, and stop");
   sub->add_option("--camera", command->camera, "camera file: where depth errors point");
   AddWallsFlag(*sub, &command->walls);
   sub->add_option("--goal", command->goal,

@@ -31,6 +31,7 @@ struct FitCommand {
   std::string goal = "auto";              // auto, none, seek, "X,Y,Z" or "X,Y,Z,REACH"
   std::string method = "auto";            // of reconstruct/fit/fit.h
   std::string search = "crs";             // of simulated statistics
+  bool list = false;                      // only print what can be named
   std::vector<std::string> compare = {};  // models
   FitOptions fit = {};
   KernelFitOptions kernels = {};  // of model kernels

@@ -29,7 +29,7 @@ ModelScore ScoreModel(const FitOptions& options, const FitProblem& problem, cons
     other.model = ModelSpec{.name = name, .parameters = {}, .where = "--compare", .where_of = {}};
     other.free.clear();
   }
-  if (LinearWeights(name).empty()) {
+  if (LinearWeights(other.model).empty()) {
     other.method = FitMethod::kAuto;
     const SimulatedPrediction flown =
         PredictBySimulation(options, other, trajectories, fps, seed, threads);

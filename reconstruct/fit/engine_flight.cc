@@ -142,6 +142,7 @@ std::optional<std::vector<FramePositions>> Fly(const FlightStart& start, const M
   try {
     swarm.model = ResolveModel(model);
     swarm.spec = model;
+    swarm.forces = model.terms;
     Engine engine(world, {swarm}, {.threads = 1, .kernel = {}});
     for (std::int64_t step = 0; step < start.steps_before; ++step) engine.Step();
     for (std::size_t f = 0; f < start.frames; ++f) {

@@ -12,6 +12,7 @@
 #include "reconstruct/fit/central_differences.h"
 #include "reconstruct/fit/depth_noise.h"
 #include "reconstruct/fit/fit_measures.h"
+#include "reconstruct/fit/fit_scene.h"
 #include "reconstruct/fit/fit_setup.h"
 #include "reconstruct/fit/fit_warnings.h"
 #include "reconstruct/fit/fitter.h"
@@ -21,6 +22,7 @@
 #include "reconstruct/fit/swarm_noise.h"
 #include "reconstruct/fit/window_choice.h"
 #include "simulate/core/check.h"
+#include "simulate/core/model_terms.h"
 #include "simulate/flock/model.h"
 
 namespace flocklift {
@@ -30,9 +32,11 @@ namespace {
 // Positions times unknown depth errors: what a state-space estimate holds three slopes of.
 constexpr double kMostDepthSlopes = 3e6;
 
+bool IsOfWalls(const std::string& name) { return name == "alpha_b" || name.starts_with("walls"); }
+
 std::vector<std::string> DefaultFree(const FitProblem& problem) {
-  std::vector<std::string> names = LinearWeights(problem.model.name);
-  if (!problem.walls) std::erase(names, "alpha_b");
+  std::vector<std::string> names = LinearWeights(problem.model);
+  if (!problem.walls) std::erase_if(names, IsOfWalls);
   return names;
 }
 
@@ -42,10 +46,13 @@ FitResult Fitter::Run(const Progress& progress) {
   model_ = CompleteModel(problem_.model);
   free_ = problem_.free.empty() ? DefaultFree(problem_) : problem_.free;
   ChooseMethod();
-  if (!problem_.walls && std::find(free_.begin(), free_.end(), "alpha_b") != free_.end()) {
-    throw InputError(problem_.model.where, 0, "alpha_b is to be fitted, but there are no walls",
-                     "say where the walls are, or leave alpha_b out");
+  const auto of_walls = std::find_if(free_.begin(), free_.end(), IsOfWalls);
+  if (!problem_.walls && of_walls != free_.end()) {
+    throw InputError(problem_.model.where, 0,
+                     *of_walls + " is to be fitted, but there are no walls",
+                     "say where the walls are, or leave " + *of_walls + " out");
   }
+  around_ = SurroundingsOf(problem_);
   WidenSpeedLimits(problem_, flock_, &model_, &result_.warnings);
   UseGoal({});  // also checks the names
   result_.parameters.model = model_;
@@ -92,8 +99,8 @@ void Fitter::ChooseMethod() {
   weights_ = free_.size();
   if (result_.method != FitMethod::kStateSpace) return;
   if (problem_.free.empty()) std::erase_if(free_, [&](const auto& n) { return !is_smooth(n); });
-  MakeProcessModel(model_, free_, problem_.walls);  // or throws
-  const std::vector<std::string> linear = LinearWeights(model_.name);
+  MakeProcessModel(model_, free_, problem_.walls, around_);  // or throws
+  const std::vector<std::string> linear = LinearWeights(model_);
   const auto others = std::stable_partition(free_.begin(), free_.end(), [&](const auto& name) {
     return std::find(linear.begin(), linear.end(), name) != linear.end();
   });
@@ -153,7 +160,7 @@ void Fitter::EstimateStates(WhitenedFit* fit) {
         "regression");
     return;
   }
-  const ProcessModel process = MakeProcessModel(model_, free_, problem_.walls);
+  const ProcessModel process = MakeProcessModel(model_, free_, problem_.walls, around_);
   std::vector<double> start = process.start;
   std::copy(fit->regression.estimate.begin(), fit->regression.estimate.end(), start.begin());
   const StateSpaceOptions options{
@@ -189,7 +196,7 @@ void Fitter::EstimateStates(WhitenedFit* fit) {
   parameter_rms_ = ParameterRms(process, states.estimate, states.sd, flock_, options_.substeps);
   if (weights_ < free_.size()) {  // the rows were made with the others as given
     for (std::size_t c = weights_; c < free_.size(); ++c) {
-      model_.parameters[free_[c]] = states.estimate[c];
+      *FindNumber(&model_, free_[c]) = states.estimate[c];
     }
     UseGoal({});
     rows_ = Rows(flock_, {});
@@ -211,18 +218,17 @@ double Fitter::Pull() const { return problem_.walls ? 0 : PullToTheMiddle(rows_,
 
 }  // namespace internal
 
-FitResult FitModel(const FitOptions& options, const FitProblem& problem,
+FitResult FitModel(const FitOptions& options, const FitProblem& given,
                    const Trajectories& trajectories, double fps, std::uint64_t seed, int threads,
                    const Progress& progress) {
   CheckOptions(options);
   Check(fps > 0, "fps must be positive");
-  const bool by_statistics = problem.method == FitMethod::kStatistics ||
-                             (problem.method == FitMethod::kAuto &&
-                              !internal::StatisticsParameters(problem.model).empty());
-  if (problem.scene && (!by_statistics || problem.model.name == "swarm")) {
-    throw InputError("--scene", 0, "only fits by simulated statistics know the surroundings",
-                     "take --method statistics, or leave the scene out");
+  const FitProblem problem = internal::InScene(given);
+  if (problem.scene && problem.model.name == "swarm") {
+    throw InputError("--scene", 0, "the noise of a swarm is sought without its surroundings",
+                     "leave the scene out, and give --walls and --goal");
   }
+  const bool by_statistics = internal::ByStatistics(problem);
   if (problem.model.name == "swarm") {
     return internal::FitSwarmNoise(options, problem, trajectories, fps, threads);
   }
@@ -233,11 +239,17 @@ FitResult FitModel(const FitOptions& options, const FitProblem& problem,
     throw InputError(problem.model.where, 0, "model " + problem.model.name + " drifts in no noise",
                      "take the model swarm, or another --method");
   }
-  FitOptions chosen = options;
+  const std::string why = internal::WhyNotRegressed(problem);
+  if (!problem.model.terms.empty() && !why.empty()) {
+    throw InputError("--method", 0,
+                     "model " + problem.model.name + " cannot be fitted by regression: " + why,
+                     "take --method statistics");
+  }
+  FitOptions chosen = internal::InScene(options, problem, fps);
   if (options.window == 0 && trajectories.has_sd_depth &&
       problem.method != FitMethod::kStateSpace && problem.method != FitMethod::kDifferences) {
     chosen.window =
-        internal::ChooseWindowByFlight(options, problem, trajectories, fps, seed, threads);
+        internal::ChooseWindowByFlight(chosen, problem, trajectories, fps, seed, threads);
   }
   return internal::Fitter(chosen, problem, trajectories, fps, seed, threads).Run(progress);
 }

@@ -24,6 +24,8 @@
 //   statistics           simulations whose speeds, accelerations, turning rates, distances and
 //                        polarisation are as the data's (simulated_fit.h); shape, morph and crowd
 //                        need the scene that says what they fly to
+// The force terms that a scene adds are fitted with the model that they add to, by these estimators
+// (scene_terms.h), by statistics where they feel more than the state and what stands still.
 // A goal may move: only what it does to animals apart from each other is used, and its mean place
 // is estimated. A state-space estimate frees radii and tapers too; elsewhere they are given. World
 // frame, z up; metres, seconds.
@@ -119,7 +121,8 @@ SimulatedSearch SimulatedSearchOf(const std::string& name);  // likewise: bobyqa
 // What to fit: the model with values for all that is not free (defaults where it says nothing).
 struct FitProblem {
   ModelSpec model;
-  std::vector<std::string> free;  // empty: every weight that the data can speak of
+  std::vector<std::string> free;  // empty: every weight that the data can speak of; names as in
+                                  // simulate/core/model_terms.h
   FitMethod method = FitMethod::kAuto;
   SimulatedSearch search = SimulatedSearch::kCrs;  // of simulated statistics
   std::optional<Region> walls;  // the box of the boundary term; without it the term is left out
@@ -127,7 +130,7 @@ struct FitProblem {
   Vec3d goal_position;           // when given [m]
   double goal_reach = 0;         // likewise: animals nearer than this are there [m]
   std::optional<Camera> camera;  // where depth errors point; absent: eye at the world's origin
-  std::optional<Scene> scene;    // of simulated statistics: what surrounds the animals
+  std::optional<Scene> scene;    // what surrounds the animals; its forces are the model's terms
 };
 
 struct FittedWeight {

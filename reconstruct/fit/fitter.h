@@ -19,6 +19,7 @@
 #include "reconstruct/fit/motion_rows.h"
 #include "reconstruct/fit/observed_flock.h"
 #include "reconstruct/fit/state_space.h"
+#include "reconstruct/fit/term_surroundings.h"
 #include "reconstruct/fit/whitened_fit.h"
 
 namespace flocklift::internal {
@@ -67,6 +68,8 @@ class Fitter {
   void ChooseRows();
   MotionRows Rows(const ObservedFlock& flock, const Progress& progress) const;
   void SummarizeWeights(const WhitenedFit& fit);
+  // Of the return to cruising speeds, by the model and its terms [1/s].
+  double CruiseRate() const;
   // May the model's weight be no less than 0?
   bool IsPositive(const std::string& name) const;
   void SummarizeRest(const WhitenedFit& fit);
@@ -86,6 +89,7 @@ class Fitter {
   std::vector<std::string> free_;      // of the model
   std::size_t weights_ = 0;            // of them; then those by which accelerations are not linear
   std::vector<double> parameter_rms_;  // of a state-space estimate
+  TermSurroundings around_;
   std::optional<GoalSpec> goal_;
   double cruising_speed_ = 0;  // that the terms count on [m/s]
   FlockTerms terms_;

@@ -30,7 +30,7 @@ void Fitter::UseGoal(const std::optional<GoalSpec>& goal) {
   whitening_.frame_effects =
       goal.has_value() && rows_.size() >= kFrameEffects * static_cast<std::size_t>(result_.frames);
   cruising_speed_ = whitening_.frame_effects ? MeanSpeed(flock_) : 0;
-  terms_ = MakeFlockTerms(model_, names, problem_.walls, goal, cruising_speed_);
+  terms_ = MakeFlockTerms(model_, names, problem_.walls, goal, cruising_speed_, around_);
 }
 
 void Fitter::SettleGoal(WhitenedFit* fit) {

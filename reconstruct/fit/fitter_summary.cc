@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reconstruct/fit/central_differences.h"
 #include "reconstruct/fit/fit_measures.h"
+#include "reconstruct/fit/scene_terms.h"
+#include "simulate/core/model_terms.h"
 #include "simulate/flock/model.h"
 
 namespace flocklift::internal {
@@ -64,9 +67,8 @@ void Fitter::SummarizeWeights(const WhitenedFit& fit) {
                         (half_width < known || (linear && half_width * rms[c] < small));
     weight.value = values[c];
     // A term that never acted keeps the value it started with.
-    if (rms[c] == 0 && model_.parameters.contains(weight.name)) {
-      weight.value = weight.estimate = model_.parameters.at(weight.name);
-    }
+    const double* const start = FindNumber(model_, weight.name);
+    if (rms[c] == 0 && start != nullptr) weight.value = weight.estimate = *start;
     result_.weights.push_back(weight);
   }
   result_.best = BestDirection(fit.regression, rms);
@@ -74,10 +76,19 @@ void Fitter::SummarizeWeights(const WhitenedFit& fit) {
 }
 
 bool Fitter::IsPositive(const std::string& name) const {
-  const ModelInfo* const info = FindModel(model_.name);
-  const auto found = std::find_if(info->parameters.begin(), info->parameters.end(),
-                                  [&](const ParameterInfo& i) { return i.name == name; });
-  return found == info->parameters.end() || found->range.low == 0;
+  const ParameterInfo* const info = FindParameter(model_, name);
+  return info == nullptr || info->range.low == 0;
+}
+
+double Fitter::CruiseRate() const {
+  ModelSpec model = model_;
+  for (const FittedWeight& weight : result_.weights) {
+    if (double* const number = FindNumber(&model, weight.name)) *number = weight.value;
+  }
+  const double rate = CruiseRateOfTerms(model);
+  const auto own = model.parameters.find("cruise");
+  if (own == model.parameters.end()) return rate;
+  return rate + own->second / model.parameters.at("time_unit");
 }
 
 void Fitter::SummarizeRest(const WhitenedFit& fit) {
@@ -102,18 +113,14 @@ void Fitter::SummarizeRest(const WhitenedFit& fit) {
   }
   result_.diffusion = noise.diffusion;
 
-  const auto& parameters = result_.parameters.model.parameters;
   std::vector<double> values;
-  double cruise = whitening_.own_speed ? parameters.at("cruise") : 0;
-  for (const FittedWeight& weight : result_.weights) {
-    values.push_back(weight.value);
-    if (weight.name == "cruise") cruise = weight.value;
-  }
+  for (const FittedWeight& weight : result_.weights) values.push_back(weight.value);
+  const double cruise = whitening_.own_speed ? CruiseRate() : 0;
   if (!(cruise > 0)) return;
   double sum = 0, squares = 0, count = 0;
   for (const double factor : OwnFactors(rows, values, flock_.animals())) {
     if (std::isnan(factor)) continue;
-    const double speed = cruising_speed_ + factor / (cruise / parameters.at("time_unit"));
+    const double speed = cruising_speed_ + factor / cruise;
     sum += speed;
     squares += speed * speed;
     count += 1;
@@ -135,11 +142,15 @@ void Fitter::WriteParametersOf(const WhitenedFit& fit) {
     for (std::size_t d = 0; d < of_model; ++d) {
       posterior.correlation.push_back(fit.regression.correlation[c * p + d]);
     }
-    parameters[weight.name] = weight.value;
+    *FindNumber(&result_.parameters.model, weight.name) = weight.value;
   }
   if (goal_ && result_.weights.back().value > 0) {
     result_.parameters.goals = {*goal_};
     result_.parameters.goals[0].weight = result_.weights.back().value;
+  }
+  const auto is_goal = [](const ModelSpec& term) { return term.name == "goal"; };
+  if (std::any_of(model_.terms.begin(), model_.terms.end(), is_goal)) {
+    result_.parameters.goals = around_.goals;
   }
   if (parameters.contains("noise") && parameters.contains("time_unit")) {
     const double unit = parameters.at("time_unit");
@@ -147,6 +158,13 @@ void Fitter::WriteParametersOf(const WhitenedFit& fit) {
     parameters["noise_time"] = result_.noise_time / unit;
   }
   if (parameters.contains("diffusion")) parameters["diffusion"] = result_.diffusion;
+  // The first term of noise is all that is left over.
+  double sd = parameters.contains("noise") ? 0 : result_.noise_sd;
+  for (ModelSpec& term : result_.parameters.model.terms) {
+    if (term.name != "noise") continue;
+    term.parameters["sd"] = std::exchange(sd, 0);
+    term.parameters["time"] = result_.noise_time;
+  }
 }
 
 }  // namespace flocklift::internal

@@ -7,6 +7,7 @@
 #include <array>
 #include <type_traits>
 
+#include "reconstruct/fit/scene_terms.h"
 #include "simulate/core/check.h"
 #include "simulate/core/suggest.h"
 #include "simulate/flock/cell_grid.h"
@@ -29,6 +30,15 @@ Slot SlotOf(const std::vector<std::string>& free, const std::string& name, doubl
   const auto found = std::find(free.begin(), free.end(), name);
   if (found == free.end()) return {free.size(), value};
   return {static_cast<std::size_t>(found - free.begin()), unit};
+}
+
+// v / |v|, by what a cruising speed does.
+Vec3d OwnDirection(const Vec3d& x, const Vec3d& v) {
+  return CruiseSpeed::At({1.0, 1.0}, x, v) - CruiseSpeed::At({1.0, 0.0}, x, v);
+}
+
+void NoTerms(std::span<const Vec3d> /*x*/, std::span<const Vec3d> /*v*/, std::span<Vec3d> out) {
+  std::fill(out.begin(), out.end(), Vec3d{});
 }
 
 class BoidsTerms {
@@ -68,8 +78,7 @@ class BoidsTerms {
       }
       row[cruise_.column] += CruiseSpeed::At({cruise_.gain, cruising_speed_}, x[i], v[i]);
       row[level_.column] += Level::At({level_.gain}, x[i], v[i]);
-      row[columns_ - 1] =
-          CruiseSpeed::At({1.0, 1.0}, x[i], v[i]) - CruiseSpeed::At({1.0, 0.0}, x[i], v[i]);
+      row[columns_ - 1] = OwnDirection(x[i], v[i]);
     }
   }
 
@@ -175,17 +184,20 @@ std::vector<std::string> WeightsOf(const LinearParameters<double>&) {
 
 }  // namespace
 
-std::vector<std::string> LinearWeights(const std::string& model) {
-  ModelSpec spec;
-  spec.name = model;
-  return std::visit([](const auto& p) { return WeightsOf(p); }, ResolveModel(spec));
+std::vector<std::string> LinearWeights(const ModelSpec& model) {
+  const ModelParameters resolved = ResolveModel(model);
+  std::vector<std::string> weights =
+      std::visit([](const auto& p) { return WeightsOf(p); }, resolved);
+  if (weights.empty() && !std::holds_alternative<ForcesParameters>(resolved)) return weights;
+  for (std::string& weight : TermWeights(model)) weights.push_back(std::move(weight));
+  return weights;
 }
 
 FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>& free,
                           const std::optional<Region>& walls, const std::optional<GoalSpec>& goal,
-                          double cruising_speed) {
+                          double cruising_speed, const TermSurroundings& around) {
   const ModelParameters resolved = ResolveModel(model);
-  std::vector<std::string> weights = LinearWeights(model.name);
+  std::vector<std::string> weights = LinearWeights(model);
   if (goal) weights.push_back(kGoalWeight);
   for (const std::string& name : free) {
     if (std::find(weights.begin(), weights.end(), name) != weights.end()) continue;
@@ -207,10 +219,30 @@ FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>
     terms.evaluate = BoidsTerms(*boids, free, walls, goal, cruising_speed);
   } else if (const auto* linear = std::get_if<LinearParameters<double>>(&resolved)) {
     terms.evaluate = LinearTerms(*linear, free);
+  } else if (const auto* forces = std::get_if<ForcesParameters>(&resolved)) {
+    terms.min_speed = forces->s_min;
+    terms.max_speed = forces->s_max;
+    terms.evaluate = NoTerms;
   } else {
     throw InputError(model.where, 0, "model " + model.name + " has no terms that a fit could weigh",
-                     "take boids, boids2d or linear");
+                     "take boids, boids2d, linear or forces");
   }
+  const SceneTerms added(model, free, around);
+  if (added.empty()) return terms;
+  const std::size_t columns = terms.columns();
+  const bool alone = std::holds_alternative<ForcesParameters>(resolved);
+  const auto is_cruise = [&](const ModelSpec& term) { return term.name == "cruise"; };
+  const bool cruises = std::any_of(model.terms.begin(), model.terms.end(), is_cruise);
+  terms.has_own_speed = terms.has_own_speed || cruises;
+  terms.evaluate = [own = terms.evaluate, added, columns, cruising_speed,
+                    direction = alone && cruises](std::span<const Vec3d> x,
+                                                  std::span<const Vec3d> v, std::span<Vec3d> out) {
+    own(x, v, out);
+    added.AddColumns(cruising_speed, x, v, out);
+    for (std::size_t i = 0; direction && i < x.size(); ++i) {
+      out[(i + 1) * columns - 1] = OwnDirection(x[i], v[i]);
+    }
+  };
   return terms;
 }
 

@@ -6,7 +6,8 @@
 // f_p is the term of weight p with weight 1, `known` the terms whose weights are given, and c_i an
 // unknown of each animal: cruise times its own cruising speed less `cruising_speed`, g = v/|v|. All
 // by the same templated terms that the simulator runs. A point that attracts (a scene's [[goal]])
-// is one more term, whose weight has the name kGoalWeight.
+// is one more term, whose weight has the name kGoalWeight. So are the force terms that a scene adds
+// (scene_terms.h); of the model `forces` they are all.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_FLOCK_TERMS_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_FLOCK_TERMS_H_
@@ -18,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "reconstruct/fit/term_surroundings.h"
 #include "simulate/core/scene.h"
 
 namespace flocklift {
@@ -37,16 +39,18 @@ struct FlockTerms {
 
 inline constexpr const char* kGoalWeight = "goal";  // [1/s^2]
 
-// The weights of a model that FitModel can free. Empty for a model that moves positions directly.
-std::vector<std::string> LinearWeights(const std::string& model);
+// The weights of a model, and of its terms, that FitModel can free. Empty for a model that moves
+// positions directly.
+std::vector<std::string> LinearWeights(const ModelSpec& model);
 
 // `model` gives every value that is not free, `walls` the box of the boundary term (without it the
 // term is left out, and so must be its weight), `goal` the point that attracts, at rest, if any,
-// `cruising_speed` what the cruise term takes all animals' own speeds for [m/s]. Throws InputError
-// for a name that is no weight of the model.
+// `cruising_speed` what the cruise term takes all animals' own speeds for [m/s], `around` what the
+// terms of a scene feel. Throws InputError for a name that is no weight of the model.
 FlockTerms MakeFlockTerms(const ModelSpec& model, const std::vector<std::string>& free,
                           const std::optional<Region>& walls,
-                          const std::optional<GoalSpec>& goal = {}, double cruising_speed = 0);
+                          const std::optional<GoalSpec>& goal = {}, double cruising_speed = 0,
+                          const TermSurroundings& around = {});
 
 }  // namespace flocklift
 

@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "reconstruct/fit/boids_process.h"
+#include "reconstruct/fit/scene_terms.h"
 #include "simulate/core/check.h"
+#include "simulate/core/model_terms.h"
 #include "simulate/core/suggest.h"
 #include "simulate/flock/model.h"
 #include "simulate/forces/linear.h"
@@ -33,6 +35,12 @@ Source SourceOf(const std::vector<std::string>& free, const std::string& name, d
 }
 
 std::array<double, 9> Isotropic(double value) { return {value, 0, 0, 0, value, 0, 0, 0, value}; }
+
+void Nothing(std::span<const double> /*theta*/, std::span<const Vec3d> /*x*/,
+             std::span<const Vec3d> /*v*/, std::span<Vec3d> a, std::span<OwnSlope> slopes) {
+  std::fill(a.begin(), a.end(), Vec3d{});
+  std::fill(slopes.begin(), slopes.end(), OwnSlope{});
+}
 
 class LinearProcess {
  public:
@@ -65,21 +73,27 @@ class LinearProcess {
 std::vector<std::string> SmoothParameters(const ModelSpec& model) {
   const ModelParameters resolved = ResolveModel(model);
   if (std::holds_alternative<LinearParameters<double>>(resolved)) return {"cohesion", "alignment"};
+  std::vector<std::string> names;
   if (const auto* boids = std::get_if<BoidsParameters<double>>(&resolved)) {
-    return SmoothBoidsParameters(*boids);
+    names = SmoothBoidsParameters(*boids);
+  } else if (std::holds_alternative<ForcesParameters>(resolved)) {
+    names = {"s_min", "s_max"};
   }
-  return {};
+  const auto added = SmoothTermParameters(model);
+  if (names.empty() || !added || !UnknownTerm(model).empty()) return {};
+  names.insert(names.end(), added->begin(), added->end());
+  return names;
 }
 
 ProcessModel MakeProcessModel(const ModelSpec& model, const std::vector<std::string>& free,
-                              const std::optional<Region>& walls) {
+                              const std::optional<Region>& walls, const TermSurroundings& around) {
   const ModelParameters resolved = ResolveModel(model);
   const std::vector<std::string> names = SmoothParameters(model);
   if (names.empty()) {
     throw InputError(model.where, 0,
                      "model " + model.name + " is not smooth enough for a state-space fit",
                      "take --method errors-in-variables, or for boids --set a taper above 0, "
-                     "noise_time = 0 and cruise = 0");
+                     "noise_time = 0 and cruise = 0, and likewise of a scene's terms");
   }
   const ModelSpec complete = CompleteModel(model);
   ProcessModel process;
@@ -89,13 +103,28 @@ ProcessModel MakeProcessModel(const ModelSpec& model, const std::vector<std::str
       throw InputError("--free", 0, "`" + name + "` of model " + model.name + " cannot be freed",
                        SuggestName(name, names));
     }
-    process.start.push_back(complete.parameters.at(name));
+    process.start.push_back(*FindNumber(complete, name));
   }
   if (const auto* boids = std::get_if<BoidsParameters<double>>(&resolved)) {
     SetBoidsProcess(*boids, walls, &process);
+  } else if (const auto* forces = std::get_if<ForcesParameters>(&resolved)) {
+    process.evaluate = Nothing;
+    process.speed_range =
+        [low = SourceOf(free, "s_min", forces->s_min),
+         high = SourceOf(free, "s_max", forces->s_max)](std::span<const double> theta) {
+          return SpeedRange{std::max(0.0, low.In(theta)), std::max(0.0, high.In(theta))};
+        };
   } else {
     process.evaluate = LinearProcess(std::get<LinearParameters<double>>(resolved), free);
   }
+  const SceneTerms added(model, free, around);
+  if (added.empty()) return process;
+  process.evaluate = [own = process.evaluate, added](
+                         std::span<const double> theta, std::span<const Vec3d> x,
+                         std::span<const Vec3d> v, std::span<Vec3d> a, std::span<OwnSlope> slopes) {
+    own(theta, x, v, a, slopes);
+    added.AddAccelerations(theta, x, v, a, slopes);
+  };
   return process;
 }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "reconstruct/fit/observed_flock.h"
+#include "reconstruct/fit/term_surroundings.h"
 #include "simulate/core/scene.h"
 
 namespace flocklift {
@@ -46,14 +47,16 @@ struct ProcessModel {
 
 // The parameters that a state-space estimate of the model can free, none where it is not smooth:
 // all of `linear`; of boids whose windows have tapers, whose noise has no memory and which know no
-// cruising speeds of their own, the weights, radii, tapers and speed limits. InputError for a model
-// that does not exist.
+// cruising speeds of their own, the weights, radii, tapers and speed limits; of `forces` and of
+// what a scene adds to either likewise (scene_terms.h). InputError for a model that does not exist.
 std::vector<std::string> SmoothParameters(const ModelSpec& model);
 
-// `model` gives every value that is not free, `walls` the box of boids' boundary, if any. Throws
-// InputError for a model that is not smooth and a name that is none of its parameters.
+// `model` gives every value that is not free, `walls` the box of boids' boundary, if any, `around`
+// what the terms of a scene feel. Throws InputError for a model that is not smooth and a name that
+// is none of its parameters.
 ProcessModel MakeProcessModel(const ModelSpec& model, const std::vector<std::string>& free,
-                              const std::optional<Region>& walls = {});
+                              const std::optional<Region>& walls = {},
+                              const TermSurroundings& around = {});
 
 // Per component, how much each parameter changes an acceleration: rms of da / d theta_p over the
 // observed flock [m/s^2 per unit]. The differences are small beside `sd`, where it is finite.

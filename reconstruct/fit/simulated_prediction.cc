@@ -152,6 +152,7 @@ Flight ThroughEngine(const FitOptions& options, const FitProblem& problem, const
   Swarm swarm;
   swarm.species = "fitted";
   swarm.model = ResolveModel(fit.parameters.model);
+  swarm.forces = fit.parameters.model.terms;
   return [=](const Window& window) {
     std::vector<std::vector<Vec3d>> flown;
     if (window.state.animal.empty()) return flown;

@@ -10,9 +10,12 @@
 #include <span>
 
 #include "reconstruct/fit/engine_flight.h"
+#include "reconstruct/fit/flock_terms.h"
+#include "reconstruct/fit/scene_terms.h"
 #include "reconstruct/fit/simulated_fit.h"
 #include "reconstruct/fit/target_distance.h"
 #include "simulate/core/check.h"
+#include "simulate/core/model_terms.h"
 #include "simulate/core/suggest.h"
 
 namespace flocklift::internal {
@@ -33,47 +36,46 @@ std::vector<FramePositions> FramesOf(const Trajectories& trajectories) {
   return frames;
 }
 
-std::vector<double> StartValues(const ModelSpec& model, const std::vector<std::string>& free) {
-  std::vector<double> values;
-  std::vector<std::string> known;
-  for (const auto& [name, value] : model.parameters) known.push_back(name);
+// What is searched: the size of each number, which keeps its sign.
+struct Sizes {
+  std::vector<double> value, sign;
+  std::vector<Range> legal;
+};
+
+Sizes SizesOf(const ModelSpec& model, const std::vector<std::string>& free) {
+  Sizes sizes;
   for (const std::string& name : free) {
-    const auto found = model.parameters.find(name);
-    if (found == model.parameters.end()) {
+    const double* const value = FindNumber(model, name);
+    const ParameterInfo* const info = FindParameter(model, name);
+    if (value == nullptr || info == nullptr || !info->choices.empty()) {
       throw InputError("--free", 0,
                        "model " + model.name + " has no number `" + name + "` to be fitted",
-                       SuggestName(name, known));
+                       SuggestName(name, NumberNames(model)));
     }
-    if (!(found->second > 0)) {
+    if (*value == 0) {
       throw InputError(model.WhereOf(name), 0, "`" + name + "` cannot start from 0",
                        "give --set " + name + "=VALUE, of about the right size");
     }
-    values.push_back(found->second);
+    sizes.value.push_back(std::abs(*value));
+    sizes.sign.push_back(*value < 0 ? -1 : 1);
+    Range legal = info->range;
+    if (*value < 0) legal = {.low = -legal.high, .high = -legal.low};
+    sizes.legal.push_back({.low = std::max(legal.low, 0.0), .high = legal.high});
   }
-  return values;
+  return sizes;
 }
 
-std::vector<Range> LegalRanges(const std::string& model, const std::vector<std::string>& free) {
-  std::vector<Range> ranges;
-  for (const std::string& name : free) {
-    for (const ParameterInfo& parameter : FindModel(model)->parameters) {
-      if (parameter.name == name) ranges.push_back(parameter.range);
-    }
-  }
-  return ranges;
-}
-
-void AddWeights(const std::vector<std::string>& free, const SimulatedFit& fit, double known,
-                FitResult* result) {
+void AddWeights(const std::vector<std::string>& free, const std::vector<double>& sign,
+                const SimulatedFit& fit, double known, FitResult* result) {
   ParameterPosterior& posterior = result->parameters.posterior;
   for (std::size_t k = 0; k < free.size(); ++k) {
     FittedWeight weight;
     weight.name = free[k];
-    weight.value = weight.estimate = fit.estimate[k];
+    weight.value = weight.estimate = sign[k] * fit.estimate[k];
     weight.sd = fit.estimate[k] * fit.log_sd[k];
     weight.plain = std::nan("");
     weight.determined = 1.96 * fit.log_sd[k] < known;
-    result->parameters.model.parameters[free[k]] = weight.value;
+    *FindNumber(&result->parameters.model, free[k]) = weight.value;
     posterior.free.push_back(weight.name);
     posterior.sd.push_back(weight.sd);
     posterior.determined.push_back(weight.determined);
@@ -81,9 +83,9 @@ void AddWeights(const std::vector<std::string>& free, const SimulatedFit& fit, d
   }
   const std::size_t p = fit.estimate.size();
   for (std::size_t a = 0; a < free.size(); ++a) {
-    const auto row = fit.correlation.begin() + static_cast<std::ptrdiff_t>(a * p);
-    posterior.correlation.insert(posterior.correlation.end(), row,
-                                 row + static_cast<std::ptrdiff_t>(free.size()));
+    for (std::size_t b = 0; b < free.size(); ++b) {
+      posterior.correlation.push_back(sign[a] * sign[b] * fit.correlation[a * p + b]);
+    }
   }
 }
 
@@ -100,13 +102,31 @@ std::vector<std::string> StatisticsParameters(const ModelSpec& model) {
   if (model.name == "shape") names = {"alpha", "w_dis", "s_max", "drag", "gain"};
   if (model.name == "morph") names = {"speed0", "omega1", "omega2", "departure_time"};
   if (model.name == "crowd") names = {"f_max", "f_min", "alpha", "gamma"};
-  if (!NeedsScene(model.name)) return names;
+  if (names.empty() && !NeedsScene(model.name)) {
+    const std::vector<std::string> terms = TermWeights(model);
+    names = LinearWeights(model);
+    std::erase_if(names, [&](const std::string& name) {  // they come below
+      return std::find(terms.begin(), terms.end(), name) != terms.end();
+    });
+  }
+  const std::vector<std::string> terms = TermNames(model.terms);
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    for (const char* size : {"gain", "rate", "g", "sd"}) {
+      const std::string name = terms[k] + "." + size;
+      if (FindParameter(model, name) != nullptr) names.push_back(name);
+    }
+  }
+  if (!NeedsScene(model.name) && model.terms.empty()) return names;
   // What the scene leaves out is no part of it.
   std::erase_if(names, [&](const std::string& name) {
-    const auto found = model.parameters.find(name);
-    return found != model.parameters.end() && !(found->second > 0);
+    const double* const number = FindNumber(model, name);
+    return number != nullptr && *number == 0;
   });
   return names;
+}
+
+bool KnownByStatistics(const std::string& model) {
+  return NeedsScene(model) || model == "bswarm" || model == "lin" || model == "opensteer";
 }
 
 bool NeedsScene(const std::string& model) {
@@ -127,7 +147,8 @@ FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
                      "model " + model.name + " flies to what trajectories do not hold",
                      "give the scene that does: --scene SCENE.toml");
   }
-  std::vector<double> values = StartValues(model, free);
+  const Sizes sizes = SizesOf(model, free);
+  std::vector<double> values = sizes.value;
   FitResult result;
   result.method = FitMethod::kStatistics;
   result.parameters.model = model;
@@ -150,11 +171,17 @@ FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
     return result;
   }
   // The speed that animals would fly alone, as a share of what they do fly, is one more unknown.
-  const auto drive = model.parameters.find("drive");
-  const bool own_speed = drive != model.parameters.end() && drive->second > 0;
+  const auto is_above_0 = [&](const char* name) {
+    const double* const number = FindNumber(model, name);
+    return number != nullptr && *number > 0;
+  };
+  const bool own_speed =
+      is_above_0("drive") || is_above_0("cruise") || CruiseRateOfTerms(model) > 0;
   const auto simulate = [&](const std::vector<double>& theta, std::uint64_t of) {
     ModelSpec spec = model;
-    for (std::size_t k = 0; k < free.size(); ++k) spec.parameters[free[k]] = theta[k];
+    for (std::size_t k = 0; k < free.size(); ++k) {
+      *FindNumber(&spec, free[k]) = sizes.sign[k] * theta[k];
+    }
     const auto flown = Fly(start, spec, own_speed ? theta.back() : 1, of);
     if (!flown) return std::optional<MotionStatistics>();
     return ComputeMotionStatistics(*flown, 1 / fps, target);
@@ -164,7 +191,7 @@ FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
   search.global_evaluations = options.global_evaluations;
   search.local_evaluations = options.local_evaluations;
   search.range = options.search_range;
-  search.legal = LegalRanges(model.name, free);
+  search.legal = sizes.legal;
   search.seed = seed;
   search.threads = threads;
   if (own_speed) {
@@ -178,7 +205,7 @@ FitResult FitStatistics(const FitOptions& options, const FitProblem& problem,
                      "give other values by --set");
   }
   result.rows = result.animals * static_cast<std::int64_t>(result.frames);
-  AddWeights(free, fit, search.known, &result);
+  AddWeights(free, sizes.sign, fit, search.known, &result);
   if (own_speed) {
     for (const double speed : start.swarm.cruising_speed) {
       result.own_speed_mean +=

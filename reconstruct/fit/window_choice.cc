@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "reconstruct/fit/fit_scene.h"
 #include "reconstruct/fit/fitter.h"
 #include "simulate/flock/engine.h"
 
@@ -26,6 +27,7 @@ ModelSpec Noiseless(ModelSpec model) {
     const auto found = model.parameters.find(name);
     if (found != model.parameters.end()) found->second = 0;
   }
+  std::erase_if(model.terms, [](const ModelSpec& term) { return term.name == "noise"; });
   return model;
 }
 
@@ -43,7 +45,7 @@ std::unordered_map<Id, double> MeanSpeeds(const Trajectories& trajectories) {
 }  // namespace
 
 FlownErrors FlyOn(const Parameters& parameters, const Trajectories& trajectories, double fps,
-                  int substeps, double lead) {
+                  int substeps, double lead, const TermSurroundings& around) {
   Trajectories moving = trajectories;
   if (!moving.has_velocity) ComputeVelocities(fps, &moving);
   const std::unordered_map<Id, double> speeds = MeanSpeeds(moving);
@@ -52,12 +54,16 @@ FlownErrors FlyOn(const Parameters& parameters, const Trajectories& trajectories
   const int ahead = std::min(static_cast<int>(std::lround(lead * fps)), length / 3);
   Swarm swarm;
   swarm.species = "fitted";
-  swarm.model = ResolveModel(Noiseless(parameters.model));
+  const ModelSpec noiseless = Noiseless(parameters.model);
+  swarm.model = ResolveModel(noiseless);
+  swarm.forces = noiseless.terms;
   World world;
   const int steps = std::max(1, substeps);
   world.dt = 1 / (fps * steps);
   world.goals = parameters.goals;
   if (parameters.walls) world.box = *parameters.walls;
+  world.wind.velocity = around.wind;
+  if (around.flat) world.dimensions = 2;
   double model = 0, straight_on = 0, count = 0;
   for (int k = 0; k < kStarts && ahead > 0; ++k) {
     const int start = span.first + static_cast<int>((k + 0.5) * (length - ahead) / kStarts);
@@ -101,7 +107,9 @@ int ChooseWindowByFlight(const FitOptions& options, const FitProblem& problem,
     if (*window == 0) *window = flies ? fit.window : 0;
     if (!flies) return std::numeric_limits<double>::infinity();
     try {
-      return FlyOn(fit.parameters, trajectories, fps, options.substeps, kLead).model;
+      return FlyOn(fit.parameters, trajectories, fps, options.substeps, kLead,
+                   SurroundingsOf(problem))
+          .model;
     } catch (const std::runtime_error&) {
       return std::numeric_limits<double>::infinity();  // it flew apart
     }

@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "reconstruct/fit/fit.h"
+#include "reconstruct/fit/term_surroundings.h"
 
 namespace flocklift::internal {
 
@@ -26,8 +27,9 @@ struct FlownErrors {
 
 // Flights start evenly over the time. `lead` [s] is at most a third of it. Velocities are those of
 // the trajectories, or differences where they have none; everybody's own speed is the mean of them.
+// `around`: the wind that the terms of a scene feel.
 FlownErrors FlyOn(const Parameters& parameters, const Trajectories& trajectories, double fps,
-                  int substeps, double lead);
+                  int substeps, double lead, const TermSurroundings& around = {});
 
 // 0 where there is no choice: the fit is not by errors in variables.
 int ChooseWindowByFlight(const FitOptions& options, const FitProblem& problem,

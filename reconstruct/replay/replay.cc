@@ -202,6 +202,7 @@ struct SetNoise {
 
 Swarm Noiseless(Swarm swarm) {
   std::visit(SetNoise{0}, swarm.model);
+  std::erase_if(swarm.forces, [](const ModelSpec& term) { return term.name == "noise"; });
   return swarm;
 }
 
@@ -243,6 +244,7 @@ ReplayResult Replay(const ReplayOptions& options, const Parameters& parameters,
   result.start_frame = options.frame > 0 ? options.frame : FullestFrame(reconstruction);
   Start start = MakeStart(reconstruction, result.start_frame, options.count, seed);
   start.swarm.model = ResolveModel(parameters.model);
+  start.swarm.forces = parameters.model.terms;
   const int frames = options.duration > 0 ? static_cast<int>(std::lround(options.duration * fps))
                                           : SpanOf(reconstruction).last - result.start_frame;
 

@@ -12,6 +12,7 @@
 #include "simulate/core/atomic_file.h"
 #include "simulate/core/check.h"
 #include "simulate/core/input_file.h"
+#include "simulate/core/model_terms.h"
 #include "simulate/core/parameters.h"
 #include "simulate/core/settings.h"
 #include "simulate/core/suggest.h"
@@ -31,6 +32,9 @@ ModelSpec ReadModel(const toml::table& table, const std::string& name) {
   if (const toml::table* parameters = settings.FindTable("parameters")) {
     Settings(*parameters, name, "[model.parameters]").AllOthers(&model);
   }
+  settings.EachTable("force", [&](const toml::table& force) {
+    model.terms.push_back(internal::ReadForce(force, name, "[[model.force]]"));
+  });
   settings.FailUnknown();
   return model;
 }
@@ -83,14 +87,14 @@ class PosteriorReader {
   void ReadFree() {
     const toml::array* const list = settings_.FindArray("free");
     if (list == nullptr) settings_.FailMissing("free", "name the parameters that were fitted");
-    std::vector<std::string> known;
-    for (const auto& [parameter, value] : model_.parameters) known.push_back(parameter);
+    const std::vector<std::string> known = NumberNames(model_);
     for (const toml::node& node : *list) {
       if (!node.is_string()) FailAt(node, settings_.name(), "free holds no name", "give names");
       const std::string& parameter = node.as_string()->get();
-      if (!model_.parameters.contains(parameter)) {
+      if (FindNumber(model_, parameter) == nullptr) {
         FailAt(node, settings_.name(),
-               fmt::format("free names {}, which [model.parameters] lacks", Quoted(parameter)),
+               fmt::format("free names {}, which [model.parameters] lacks{}", Quoted(parameter),
+                           model_.terms.empty() ? "" : ", and every [[model.force]] too"),
                SuggestName(parameter, known));
       }
       if (std::count(posterior_.free.begin(), posterior_.free.end(), parameter) > 0) {
@@ -204,11 +208,18 @@ std::string FormatParameters(const Parameters& parameters) {
   auto out = std::back_inserter(text);
   fmt::format_to(out, "[model]\nname = {}\n\n[model.parameters]\n",
                  TomlText(parameters.model.name));
-  for (const auto& [key, value] : parameters.model.parameters) {
-    fmt::format_to(out, "{} = {}\n", internal::TomlKey(key), TomlNumber(value));
-  }
-  for (const auto& [key, word] : parameters.model.choices) {
-    fmt::format_to(out, "{} = {}\n", internal::TomlKey(key), TomlText(word));
+  const auto settings = [&](const ModelSpec& of) {
+    for (const auto& [key, value] : of.parameters) {
+      fmt::format_to(out, "{} = {}\n", internal::TomlKey(key), TomlNumber(value));
+    }
+    for (const auto& [key, word] : of.choices) {
+      fmt::format_to(out, "{} = {}\n", internal::TomlKey(key), TomlText(word));
+    }
+  };
+  settings(parameters.model);
+  for (const ModelSpec& term : parameters.model.terms) {
+    fmt::format_to(out, "\n[[model.force]]\ntype = {}\n", TomlText(term.name));
+    settings(term);
   }
   const ParameterPosterior& posterior = parameters.posterior;
   const std::size_t size = posterior.free.size();

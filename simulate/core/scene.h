@@ -34,6 +34,8 @@ struct ModelSpec {
   std::string where;  // "FILE:LINE" for messages; empty when not read from a file
   std::map<std::string, std::string> where_of;      // the same for each parameter
   std::map<std::string, std::string> choices = {};  // of the parameters that are words
+  // Of a model that was fitted, the force terms that add to its own (model_terms.h).
+  std::vector<ModelSpec> terms = {};
 
   // What a message about a parameter starts with.
   const std::string& WhereOf(const std::string& parameter) const {

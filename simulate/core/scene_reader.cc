@@ -68,15 +68,6 @@ ModelSpec ReadModel(Settings* species) {
   return model;
 }
 
-ModelSpec ReadForce(const toml::table& table, const std::string& name) {
-  Settings settings(table, name, "[[species.force]]");
-  ModelSpec force;
-  if (!settings.Text("type", &force.name)) settings.FailMissing("type", "name the force term");
-  force.where = settings.Where("type");
-  settings.AllOthers(&force);
-  return force;
-}
-
 // `start` is a box, or the name of a shape.
 void ReadStart(Settings* settings, bool is_flat, SpeciesSpec* species) {
   if (const toml::node* node = settings->Find("start"); node != nullptr && node->is_string()) {
@@ -102,8 +93,9 @@ SpeciesSpec ReadSpecies(const toml::table& table, const std::string& name, bool 
   settings.Text("shape", &species.shape);
   settings.Text("path", &species.path);
   species.model = ReadModel(&settings);
-  settings.EachTable(
-      "force", [&](const toml::table& force) { species.forces.push_back(ReadForce(force, name)); });
+  settings.EachTable("force", [&](const toml::table& force) {
+    species.forces.push_back(internal::ReadForce(force, name, "[[species.force]]"));
+  });
   settings.FailUnknown();
   return species;
 }

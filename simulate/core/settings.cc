@@ -259,6 +259,15 @@ std::string Settings::Where(std::string_view key) const {
   return fmt::format("{}:{}", name_, LineOf(node != nullptr ? *node : table_));
 }
 
+ModelSpec ReadForce(const toml::table& table, const std::string& name, const std::string& heading) {
+  Settings settings(table, name, heading);
+  ModelSpec force;
+  if (!settings.Text("type", &force.name)) settings.FailMissing("type", "name the force term");
+  force.where = settings.Where("type");
+  settings.AllOthers(&force);
+  return force;
+}
+
 std::string TomlNumber(double value) {
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   const std::string text = fmt::format("{}", value);

@@ -87,6 +87,9 @@ class Settings {
   std::vector<std::string> known_;
 };
 
+// The force term of a table such as [[species.force]]: `type` names it.
+ModelSpec ReadForce(const toml::table& table, const std::string& name, const std::string& heading);
+
 // A finite number as TOML, the shortest text that reads the same; and text in quotation marks.
 std::string TomlNumber(double value);
 std::string TomlText(std::string_view text);

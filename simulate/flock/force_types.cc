@@ -33,5 +33,6 @@ const Registry<ForceParameters>& Known() {
 
 const std::vector<ModelInfo>& ForceTypes() { return Known().infos(); }
 ForceParameters ResolveForce(const ModelSpec& spec) { return Known().Resolve(spec); }
+ModelSpec CompleteForce(const ModelSpec& spec) { return Known().Complete(spec); }
 
 }  // namespace flocklift

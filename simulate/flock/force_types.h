@@ -147,8 +147,9 @@ using ForceParameters =
 
 const std::vector<ModelInfo>& ForceTypes();
 
-// Registry::Resolve of the force terms.
+// Registry::Resolve and Registry::Complete of the force terms.
 ForceParameters ResolveForce(const ModelSpec& spec);
+ModelSpec CompleteForce(const ModelSpec& spec);
 
 }  // namespace flocklift
 

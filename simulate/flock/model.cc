@@ -3,6 +3,9 @@
 
 #include "simulate/flock/model.h"
 
+#include "simulate/core/model_terms.h"
+#include "simulate/flock/force_types.h"
+
 namespace flocklift {
 namespace {
 
@@ -39,6 +42,23 @@ const Registry<ModelParameters>& Known() {
 const std::vector<ModelInfo>& Models() { return Known().infos(); }
 const ModelInfo* FindModel(std::string_view name) { return Known().Find(name); }
 ModelParameters ResolveModel(const ModelSpec& spec) { return Known().Resolve(spec); }
-ModelSpec CompleteModel(const ModelSpec& spec) { return Known().Complete(spec); }
+ModelSpec CompleteModel(const ModelSpec& spec) {
+  ModelSpec complete = Known().Complete(spec);
+  for (ModelSpec& term : complete.terms) term = CompleteForce(term);
+  return complete;
+}
+
+const ParameterInfo* FindParameter(const ModelSpec& model, const std::string& name) {
+  const auto [term, own] = SplitName(model, name);
+  const std::vector<ModelInfo>& infos = term == nullptr ? Models() : ForceTypes();
+  const std::string& of = term == nullptr ? model.name : term->name;
+  for (const ModelInfo& info : infos) {
+    if (info.name != of) continue;
+    for (const ParameterInfo& parameter : info.parameters) {
+      if (parameter.name == own) return &parameter;
+    }
+  }
+  return nullptr;
+}
 
 }  // namespace flocklift

@@ -35,9 +35,14 @@ using ModelParameters =
                  ForcesParameters, OpenSteerParameters, BSwarmParameters, SwarmParameters,
                  ShapeParameters, MorphParameters, CrowdParameters>;
 
-// Registry::Resolve and Registry::Complete of the models.
+// Registry::Resolve and Registry::Complete of the models; the latter of the terms that add to one,
+// too.
 ModelParameters ResolveModel(const ModelSpec& spec);
 ModelSpec CompleteModel(const ModelSpec& spec);
+
+// Of the model's own parameters or its terms' (simulate/core/model_terms.h); null where there is
+// none of that name.
+const ParameterInfo* FindParameter(const ModelSpec& model, const std::string& name);
 
 }  // namespace flocklift
 

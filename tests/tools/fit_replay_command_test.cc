@@ -153,6 +153,55 @@ TEST_F(FitReplayCommandTest, FitsWithinAScene) {
   EXPECT_TRUE(figures.at("misfit").contains("target_distance"));
 }
 
+// The forces of a scene have names, which parameters.toml keeps and a replay flies by.
+TEST_F(FitReplayCommandTest, FitsTheForcesOfAScene) {
+  Scene scene = BoidsScene(5);
+  scene.duration = 4;
+  SpeciesSpec& birds = scene.species[0];
+  birds.model = {.name = "forces", .parameters = {}, .where = {}, .where_of = {}};
+  const auto force = [](const char* type, std::map<std::string, double> parameters) {
+    return ModelSpec{
+        .name = type, .parameters = std::move(parameters), .where = {}, .where_of = {}};
+  };
+  birds.forces = {force("alignment", {{"gain", 1}, {"radius", 5}}),
+                  force("alignment", {{"gain", 0.4}, {"radius", 15}}), force("walls", {}),
+                  force("drag", {{"rate", 0.1}}), force("noise", {})};
+  WriteTrajectories(folder_ / "birds.csv", Fly(scene));
+  WriteScene(folder_ / "scene.toml", scene);
+  const std::string fit = "fit " + (folder_ / "birds.csv").string() + " --model forces --scene " +
+                          (folder_ / "scene.toml").string() + " ";
+  const fs::path out = Run(fit + "--set alignment2.gain=0.1", "fit");
+  const Parameters parameters = ReadParameters(out / "parameters.toml");
+  EXPECT_EQ(
+      parameters.posterior.free,
+      (std::vector<std::string>{"alignment.gain", "alignment2.gain", "walls.gain", "drag.rate"}));
+  ASSERT_EQ(parameters.model.terms.size(), 5U);
+  EXPECT_EQ(parameters.model.terms[1].parameters.at("radius"), 15);
+  EXPECT_NEAR(parameters.model.terms[0].parameters.at("gain"), 1, 0.4);
+  const nlohmann::json figures = Figures(out / "summary.fit.json");
+  EXPECT_EQ(figures.at("weights")[1].at("name"), "alignment2.gain");
+  EXPECT_EQ(figures.at("weights")[1].at("value"), parameters.model.terms[1].parameters.at("gain"));
+
+  const fs::path replay =
+      Run("replay " + (folder_ / "birds.csv").string() + " --parameters " +
+              (out / "parameters.toml").string() + " --frame 10 --duration 1 --noiseless",
+          "replay");
+  const auto end = Figures(replay / "summary.replay.json").at("divergence").back();
+  EXPECT_LT(end.at("model_rms"), 0.8 * end.at("straight_on_rms").get<double>());
+
+  const fs::path listed = Run(fit + "--list", "listed");
+  EXPECT_FALSE(fs::exists(listed));
+  for (const char* wrong : {"--free alignment3.gain", "--set drag.rat=1", "--free s_man"}) {
+    try {
+      Run(fit + wrong, "none");
+      ADD_FAILURE() << wrong;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("did you mean"), std::string::npos) << error.what();
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "none" / "parameters.toml"));
+  }
+}
+
 TEST_F(FitReplayCommandTest, FitRefusesWithNothingWritten) {
   const auto refused = [&](const std::string& arguments) {
     EXPECT_ANY_THROW(Run(Fit(arguments), "none")) << arguments;

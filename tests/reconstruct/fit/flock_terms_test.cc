@@ -71,7 +71,7 @@ TEST(FlockTerms, WeightedTermsAddUpToTheEngine) {
   const double own_speed = 9;
   const auto engine = EngineAccelerations(Boids(parameters), state, world, own_speed);
 
-  std::vector<std::string> free = LinearWeights("boids");
+  std::vector<std::string> free = LinearWeights(Boids({}));
   free.push_back(kGoalWeight);
   const FlockTerms all_free = MakeFlockTerms(Boids(parameters), free, world.box, goal);
   const FlockTerms all_known = MakeFlockTerms(Boids(parameters), {}, world.box, goal);
@@ -135,7 +135,8 @@ TEST(FlockTerms, UnknownNamesAreTold) {
   ModelSpec lin;
   lin.name = "lin";
   EXPECT_THROW(MakeFlockTerms(lin, {}, {}), InputError);
-  EXPECT_TRUE(LinearWeights("lin").empty());
+  EXPECT_TRUE(
+      LinearWeights({.name = "lin", .parameters = {}, .where = {}, .where_of = {}}).empty());
 }
 
 }  // namespace

@@ -19,10 +19,15 @@ Parameters Example() {
   Parameters parameters;
   parameters.model.name = "boids";
   parameters.model.parameters = {{"a", 0.1}, {"b", -1e-20}, {"c d", 1.0 / 3}};
-  parameters.posterior = {.free = {"c d", "a"},
-                          .sd = {0.25, INFINITY},
-                          .correlation = {1, -0.7, -0.7, 1},
-                          .determined = {true, false}};
+  ModelSpec near{.name = "alignment", .parameters = {}, .where = {}, .where_of = {}};
+  near.parameters = {{"gain", 0.3}, {"radius", 2}};
+  ModelSpec far = near;
+  far.parameters["gain"] = -0.1;
+  parameters.model.terms = {near, far};
+  parameters.posterior = {.free = {"c d", "a", "alignment2.gain"},
+                          .sd = {0.25, INFINITY, 0.5},
+                          .correlation = {1, -0.7, 0, -0.7, 1, 0, 0, 0, 1},
+                          .determined = {true, false, true}};
   parameters.goals = {
       {.species = {}, .position = {1, -2, 0.1}, .radius = 3, .period = 20, .weight = 1.0 / 3}};
   parameters.walls = Region{{-1, -2, -3}, {1, 2, 3.5}};
@@ -36,6 +41,9 @@ TEST(Parameters, SurviveAFile) {
   const Parameters read = ReadParameters(folder / "parameters.toml");
   EXPECT_EQ(read.model.name, written.model.name);
   EXPECT_EQ(read.model.parameters, written.model.parameters);
+  ASSERT_EQ(read.model.terms.size(), 2U);
+  EXPECT_EQ(read.model.terms[1].name, "alignment");
+  EXPECT_EQ(read.model.terms[1].parameters, written.model.terms[1].parameters);
   EXPECT_EQ(read.posterior.free, written.posterior.free);
   EXPECT_EQ(read.posterior.sd, written.posterior.sd);
   EXPECT_EQ(read.posterior.correlation, written.posterior.correlation);
