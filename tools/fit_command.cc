@@ -23,6 +23,7 @@
 #include "tools/fit_comparison.h"
 #include "tools/fit_kernels.h"
 #include "tools/fit_list.h"
+#include "tools/scene_input.h"
 #include "tools/stage.h"
 #include "tools/walls.h"
 
@@ -201,7 +202,7 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
     Check(name != kKernelsModel || kernels.order == 2,
           "--compare kernels needs --order 2: the other models make accelerations");
   }
-  CheckComparable(command.compare);
+  CheckComparable(command.compare, command.scene.empty() ? "" : command.model);
   Stage stage("fit", common);
   stage.options() = {{"model", command.model},  {"free", command.free}, {"set", command.set},
                      {"walls", command.walls},  {"goal", command.goal}, {"method", command.method},
@@ -223,15 +224,7 @@ void RunFit(const FitCommand& command, const CommonOptions& common) {
   ParseGoal(command.goal, &problem);
   if (!command.start.empty()) stage.AddInput(command.start);
   if (!command.scene.empty()) {
-    stage.options()["scene"] = command.scene.string();
-    stage.AddInput(command.scene);
-    problem.scene = ReadScene(command.scene);
-    for (const ObstacleSpec& obstacle : problem.scene->obstacles) {
-      if (obstacle.mesh) stage.AddInput(*obstacle.mesh);
-    }
-    for (const ShapeSpec& shape : problem.scene->shapes) {
-      for (const ShapeSpec::KeyFrame& frame : shape.key_frames) stage.AddInput(frame.mesh);
-    }
+    problem.scene = ReadSceneAsInput(command.scene, &stage);
   }
   problem.model = ModelOf(command, problem.scene);
   if (command.list) {
@@ -345,7 +338,7 @@ void AddFitCommand(CLI::App& app) {
          "models, separated by commas, to be fitted to all but the last part of the time "
          "too (--held-out) and compared there, with constant velocity, as a table; kernels "
          "among them; models that are fitted by statistics are flown on by the engine, which takes "
-         "as long as their fit does")
+         "as long as their fit does, and --model in its --scene")
       ->delimiter(',');
   AddFlags(*sub, command->fit, "Fit");
   AddFlags(*sub, command->kernels, "Model kernels");

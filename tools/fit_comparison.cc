@@ -10,7 +10,8 @@
 #include <cstdio>
 #include <limits>
 
-#include "reconstruct/fit/flock_terms.h"
+#include "reconstruct/fit/departure.h"
+#include "reconstruct/fit/fit_scene.h"
 #include "reconstruct/fit/kernel_prediction.h"
 #include "reconstruct/fit/simulated_prediction.h"
 #include "simulate/core/check.h"
@@ -26,10 +27,12 @@ ModelScore ScoreModel(const FitOptions& options, const FitProblem& problem, cons
                       int threads) {
   FitProblem other = problem;
   if (name != problem.model.name) {
+    if (problem.scene && !other.walls) other.walls = problem.scene->box;
+    other.scene.reset();
     other.model = ModelSpec{.name = name, .parameters = {}, .where = "--compare", .where_of = {}};
     other.free.clear();
   }
-  if (LinearWeights(other.model).empty()) {
+  if (!internal::WhyNotRegressed(other).empty()) {
     other.method = FitMethod::kAuto;
     const SimulatedPrediction flown =
         PredictBySimulation(options, other, trajectories, fps, seed, threads);
@@ -64,14 +67,15 @@ ModelScore ScoreKernels(const FitOptions& options, const KernelFitOptions& kerne
 
 }  // namespace
 
-void CheckComparable(const std::vector<std::string>& models) {
+void CheckComparable(const std::vector<std::string>& models, const std::string& in_scene) {
   for (const std::string& name : models) {
     if (name == kKernelsModel) continue;
-    CompleteModel({.name = name, .parameters = {}, .where = "--compare", .where_of = {}});
-    const std::string why = WhyNotFlown(name);
+    const ModelSpec model{.name = name, .parameters = {}, .where = "--compare", .where_of = {}};
+    CompleteModel(model);
+    const std::string why = name == in_scene ? "" : WhyNoDeparture(model);
     if (why.empty()) continue;
     throw InputError("--compare", 0, "model " + name + " cannot be flown from trajectories: " + why,
-                     "leave it out");
+                     "leave it out, or give its scene: --scene SCENE.toml --model " + name);
   }
 }
 
@@ -81,7 +85,7 @@ std::vector<ModelScore> CompareModels(const FitOptions& options, const FitProble
                                       const std::vector<Trajectories>& flocks, double fps,
                                       std::uint64_t seed, int threads) {
   if (models.empty()) return {};
-  CheckComparable(models);
+  CheckComparable(models, problem.scene ? problem.model.name : "");
   std::vector<ModelScore> scores;
   scores.push_back({.model = kConstantVelocity, .weights = 0, .r2_held_out = 0.0, .fault = {}});
   FitOptions quick = options;

@@ -28,13 +28,15 @@ struct ModelScore {
   std::string fault;  // why there is no score
 };
 
-// Throws InputError for a model that does not exist, or that cannot be flown from trajectories.
-void CheckComparable(const std::vector<std::string>& models);
+// Throws InputError for a model that does not exist, or that cannot be flown from trajectories;
+// `in_scene` has a scene to fly in.
+void CheckComparable(const std::vector<std::string>& models, const std::string& in_scene = {});
 
 // By errors-in-variables, or by the model's own default where that cannot be, each with all its
-// weights and otherwise its defaults (the problem's settings where it is the problem's model), best
-// first, constant velocity among them; empty for no names. The model `kernels` is fitted to all the
-// flocks, every other to the first. Throws as CheckComparable.
+// weights and otherwise its defaults (the problem's settings, and its scene, where it is the
+// problem's model; the others have its walls), best first, constant velocity among them; empty for
+// no names. The model `kernels` is fitted to all the flocks, every other to the first. Throws as
+// CheckComparable.
 std::vector<ModelScore> CompareModels(const FitOptions& options, const FitProblem& problem,
                                       const KernelFitOptions& kernels,
                                       const std::vector<std::string>& models,

@@ -18,8 +18,10 @@
 #include "simulate/core/io.h"
 #include "simulate/core/parameters.h"
 #include "simulate/core/rng.h"
+#include "simulate/core/scene_io.h"
 #include "simulate/flock/load_scene.h"
 #include "simulate/render/film.h"
+#include "tools/scene_input.h"
 #include "tools/scene_scenery.h"
 #include "tools/stage.h"
 #include "tools/walls.h"
@@ -56,7 +58,7 @@ nlohmann::ordered_json DivergenceSeries(const std::vector<Divergence>& divergenc
                       {"model_rms", d.model_rms},
                       {"noiseless_rms", d.noiseless_rms},
                       {"straight_on_rms", d.straight_on_rms}});
-    if (!guided) series.back()["perturbed_rms"] = d.perturbed_rms;
+    if (!guided && d.perturbed_rms > 0) series.back()["perturbed_rms"] = d.perturbed_rms;
   }
   return series;
 }
@@ -123,6 +125,10 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
   for (const ObstacleSpec& obstacle : obstacles) {
     if (obstacle.mesh) stage.AddInput(*obstacle.mesh);
   }
+  std::optional<Scene> scene;
+  if (!command.scene.empty()) {
+    scene = ReadSceneAsInput(command.scene, &stage);
+  }
   std::optional<Camera> camera;
   if (!command.camera.empty()) {
     stage.AddInput(command.camera);
@@ -146,11 +152,12 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
 
   const Progress progress = stage.BeginPhase("fly");
   const ReplayResult result = Replay(command.replay, parameters, reconstruction, *fps, common.seed,
-                                     common.ThreadCount(), progress, obstacles);
+                                     common.ThreadCount(), progress, obstacles, scene);
   if (camera && !command.no_video) {
     const Progress film = stage.BeginPhase("film");
     Scene surroundings;
-    surroundings.obstacles = obstacles;
+    if (scene) surroundings.obstacles = scene->obstacles;
+    surroundings.obstacles.insert(surroundings.obstacles.end(), obstacles.begin(), obstacles.end());
     const std::vector<Obstacle> solid = LoadObstacles(surroundings);
     const Scenery scenery = SceneObstacles(solid);
     FilmTrajectories(
@@ -179,11 +186,17 @@ void AddReplayCommand(CLI::App& app) {
       "  flocklift replay trajectories.csv --parameters parameters.toml --out replay\n"
       "  flocklift replay trajectories.csv --parameters parameters.toml --count 5000 \\\n"
       "      --camera camera.yaml --out replay\n"
-      "  flocklift replay flies.csv --parameters parameters.toml --obstacle 0.1,0,1,0.05",
+      "  flocklift replay flies.csv --parameters parameters.toml --obstacle 0.1,0,1,0.05\n"
+      "  flocklift replay flies.csv --parameters parameters.toml --scene moon.toml",
       {.fps = true, .seed = true}, &RunReplay, &command);
   sub->add_option("trajectories", command->trajectories, "trajectories (CSV, or HDF5)")->required();
   sub->add_option("--parameters", command->parameters, "parameters.toml of `flocklift fit`")
       ->required();
+  sub->add_option("--scene", command->scene,
+                  "scene file whose surroundings they fly in (shapes, paths, goals, obstacles, "
+                  "wind, predators, events), by its steps; shape, morph and crowd need it, and "
+                  "forces where they feel wind or predators. A morph's tetrahedra fly from the "
+                  "scene's own start, each animal as the one that it was nearest to");
   sub->add_option("--camera", command->camera, "camera file; also film the replay");
   sub->add_flag("--no-video", command->no_video, "write no video");
   AddWallsFlag(*sub, &command->walls);

@@ -21,6 +21,7 @@ namespace flocklift {
 
 struct ReplayCommand {
   std::filesystem::path trajectories = {}, parameters = {};
+  std::filesystem::path scene = {};   // what surrounds the animals; empty: the parameters' own
   std::filesystem::path camera = {};  // empty: no video
   bool no_video = false;
   double wingspan = 0.7;   // of the animals in the video [m]

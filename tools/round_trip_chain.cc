@@ -273,6 +273,7 @@ class Chain {
     leg.stage = "start";
     leg.parameters = {};
     leg.parameters.model = chain_.scene.species.front().model;
+    leg.parameters.model.terms = chain_.scene.species.front().forces;
     leg.parameters.walls = chain_.scene.box;
     for (const GoalSpec& goal : chain_.scene.goals) {
       if (goal.species.empty() || goal.species == chain_.scene.species.front().name) {

@@ -22,6 +22,7 @@
 #include "simulate/render/image_codec.h"
 #include "simulate/synthetic.h"
 #include "tools/scene_camera.h"
+#include "tools/scene_input.h"
 #include "tools/scene_scenery.h"
 #include "tools/scene_tetrahedra.h"
 #include "tools/size_text.h"
@@ -91,12 +92,7 @@ void RunSimulate(const SimulateCommand& command, const CommonOptions& common) {
   stage.options()["size"] = fmt::format("{}x{}", camera.width, camera.height);
   stage.AddInput(command.scene);
   if (scene.camera.file) stage.AddInput(*scene.camera.file);
-  for (const ObstacleSpec& obstacle : scene.obstacles) {
-    if (obstacle.mesh) stage.AddInput(*obstacle.mesh);
-  }
-  for (const ShapeSpec& shape : scene.shapes) {
-    for (const ShapeSpec::KeyFrame& frame : shape.key_frames) stage.AddInput(frame.mesh);
-  }
+  AddMeshInputs(scene, &stage);
   stage.AddOutput("trajectories.csv");
   if (!command.no_tracks) stage.AddOutput("tracks_true.csv");
   stage.AddOutput("camera.yaml");

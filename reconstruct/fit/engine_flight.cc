@@ -25,22 +25,6 @@ Scene StartOf(Scene scene, const std::string& model) {
   return scene;
 }
 
-// The surroundings and the species of the scene, at its start.
-void TakeScene(const Scene& scene, const std::string& model, double fps, FlightStart* start) {
-  const SpeciesSpec& species = SpeciesOf(scene, model);
-  Population population = Populate(scene);
-  start->world = std::move(population.world);
-  for (Swarm& swarm : population.swarms) {
-    if (swarm.species == species.name) start->swarm = std::move(swarm);
-  }
-  for (ShapeInTime& shape : start->world.shapes) {
-    if (model != "morph") break;
-    if (shape.name != start->swarm.shape && shape.name != start->swarm.start_shape) continue;
-    shape.filling = FillWith(shape.meshes.front(), start->swarm.position.size());
-  }
-  start->substeps = std::max(1, static_cast<int>(std::lround(scene.fps * scene.substeps / fps)));
-}
-
 // The flock as it is in the data's frame `index`.
 void TakeFlock(const std::vector<FramePositions>& frames, Trajectories trajectories, double fps,
                FlightStart* start) {
@@ -81,6 +65,36 @@ void TakeFlock(const std::vector<FramePositions>& frames, Trajectories trajector
 
 }  // namespace
 
+SceneStart StartIn(const Scene& scene, const std::string& model, double fps) {
+  const SpeciesSpec& species = SpeciesOf(scene, model);
+  SceneStart start;
+  Population population = Populate(scene);
+  start.world = std::move(population.world);
+  for (Swarm& swarm : population.swarms) {
+    if (swarm.species == species.name) start.swarm = std::move(swarm);
+  }
+  for (ShapeInTime& shape : start.world.shapes) {
+    if (model != "morph") break;
+    if (shape.name != start.swarm.shape && shape.name != start.swarm.start_shape) continue;
+    shape.filling = FillWith(shape.meshes.front(), start.swarm.position.size());
+  }
+  start.substeps = std::max(1, static_cast<int>(std::lround(scene.fps * scene.substeps / fps)));
+  return start;
+}
+
+std::vector<FramePositions> FramesOf(const Trajectories& trajectories) {
+  const FrameSpan span = SpanOf(trajectories);
+  std::vector<FramePositions> frames(static_cast<std::size_t>(span.last - span.first + 1));
+  for (const Trajectory& trajectory : trajectories.trajectories) {  // by increasing id
+    for (const TrajectoryPoint& point : trajectory.points) {
+      FramePositions& frame = frames[static_cast<std::size_t>(point.frame - span.first)];
+      frame.id.push_back(trajectory.id);
+      frame.position.push_back(point.position);
+    }
+  }
+  return frames;
+}
+
 const SpeciesSpec& SpeciesOf(const Scene& scene, const std::string& model) {
   for (const SpeciesSpec& species : scene.species) {
     if (species.model.name == model && species.count > 0) return species;
@@ -95,7 +109,12 @@ FlightStart MakeFlightStart(const FitOptions& options, const FitProblem& problem
   FlightStart start;
   start.swarm.species = "fitted";
   start.substeps = std::max(1, options.substeps);
-  if (problem.scene) TakeScene(*problem.scene, problem.model.name, fps, &start);
+  if (problem.scene) {
+    SceneStart in_scene = StartIn(*problem.scene, problem.model.name, fps);
+    start.world = std::move(in_scene.world);
+    start.swarm = std::move(in_scene.swarm);
+    start.substeps = in_scene.substeps;
+  }
   start.swarm.spec = problem.model;
   start.world.dt = 1 / (fps * start.substeps);
   if (problem.walls) start.world.box = *problem.walls;

@@ -23,6 +23,23 @@
 
 namespace flocklift::internal {
 
+// The model that moves the scene's species of that name, with the scene's numbers. Throws
+// InputError for a scene that has none.
+const SpeciesSpec& SpeciesOf(const Scene& scene, const std::string& model);
+
+// A scene at its start: its surroundings, and the species that moves by the model, with its animals
+// where the scene puts them.
+struct SceneStart {
+  World world;
+  Swarm swarm;
+  int substeps = 1;  // a frame of the data
+};
+// Throws as SpeciesOf does.
+SceneStart StartIn(const Scene& scene, const std::string& model, double fps);
+
+// Frame by frame, from the first to the last.
+std::vector<FramePositions> FramesOf(const Trajectories& trajectories);
+
 struct FlightStart {
   World world;
   Swarm swarm;
@@ -31,10 +48,6 @@ struct FlightStart {
   std::int64_t steps_before = 0;      // from the start to the first of these frames
   std::optional<Scene> drawn;         // whose start is drawn anew; nothing: all start alike
 };
-
-// The model that moves the scene's species of that name, with the scene's numbers. Throws
-// InputError for a scene that has none.
-const SpeciesSpec& SpeciesOf(const Scene& scene, const std::string& model);
 
 // `frames`: all of the data's, in a row.
 FlightStart MakeFlightStart(const FitOptions& options, const FitProblem& problem,

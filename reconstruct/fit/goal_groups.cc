@@ -59,7 +59,8 @@ std::vector<std::size_t> OrderByGoal(const World& world, const std::string& spec
   std::vector<std::vector<double>> nearer(ids.size(), std::vector<double>(groups));
   std::vector<double> margin(ids.size());
   for (std::size_t k = 0; k < ids.size(); ++k) {
-    const Way& way = ways.at(ids[k]);
+    const auto found = ways.find(ids[k]);
+    const Way way = found == ways.end() ? Way{.from = {}, .to = {}, .end = time} : found->second;
     const std::vector<Vec3d> goals = GoalsAt(world, species, way.end);
     for (std::size_t g = 0; g < groups; ++g) {
       nearer[k][g] = Norm(way.from - goals[g]) - Norm(way.to - goals[g]);

@@ -22,7 +22,7 @@ namespace flocklift {
 std::vector<Vec3d> GoalsAt(const World& world, const std::string& species, double time);
 
 // The places in `ids` of the animals, in the model's order. The first of the frames is at `time`
-// [s].
+// [s]; who is in none of them takes what room is left.
 std::vector<std::size_t> OrderByGoal(const World& world, const std::string& species,
                                      const std::vector<FramePositions>& frames, double time,
                                      double fps, const std::vector<Id>& ids);

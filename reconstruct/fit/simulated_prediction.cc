@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <memory>
 #include <stdexcept>
 
+#include "reconstruct/fit/departure.h"
+#include "reconstruct/fit/engine_flight.h"
 #include "reconstruct/fit/expected_field.h"
+#include "reconstruct/fit/fit_scene.h"
 #include "reconstruct/fit/fit_setup.h"
 #include "reconstruct/fit/flock_terms.h"
 #include "reconstruct/fit/held_out.h"
@@ -27,6 +29,7 @@ namespace {
 
 constexpr int kSeeds = 8;            // R
 constexpr int kWindows = 40;         // of each part, at most, that are flown
+constexpr int kMatched = 12;         // frames, about, that paths are compared in
 constexpr int kFieldAnimals = 1000;  // that a field which stands still is expected of
 constexpr std::int64_t kFewestRows = 10;
 
@@ -142,41 +145,86 @@ std::vector<Vec3d> SecondDifference(const std::vector<Vec3d>& before,
   return difference;
 }
 
-Flight ThroughEngine(const FitOptions& options, const FitProblem& problem, const FitResult& fit,
+Flight ThroughEngine(const Departures& departures, const Trajectories& trajectories,
                      std::vector<double> own_speeds, double fps, int m, std::uint64_t seed) {
-  World world;
-  const int substeps = std::max(1, options.substeps);
-  world.dt = 1 / (fps * substeps);
-  if (problem.walls) world.box = *problem.walls;
-  world.goals = fit.parameters.goals;
-  Swarm swarm;
-  swarm.species = "fitted";
-  swarm.model = ResolveModel(fit.parameters.model);
-  swarm.forces = fit.parameters.model.terms;
-  return [=](const Window& window) {
+  std::vector<Id> ids;
+  for (const Trajectory& trajectory : trajectories.trajectories) ids.push_back(trajectory.id);
+  return [=, &departures, steps = m * departures.substeps()](const Window& window) {
     std::vector<std::vector<Vec3d>> flown;
     if (window.state.animal.empty()) return flown;
-    Swarm here = swarm;
-    here.position = window.state.position;
-    here.velocity = window.state.velocity;
+    std::vector<Id> there;
+    std::vector<double> speeds;
     for (const int animal : window.state.animal) {
-      here.cruising_speed.push_back(own_speeds[static_cast<std::size_t>(animal)]);
+      there.push_back(ids[static_cast<std::size_t>(animal)]);
+      speeds.push_back(own_speeds[static_cast<std::size_t>(animal)]);
     }
-    World now = world;
-    now.time = (window.middle - m - 1) / fps;
+    Departure from = departures.At((window.middle - m - 1) / fps, there, window.state.position,
+                                   window.state.velocity, speeds);
     try {
       for (int draw = 0; draw < kSeeds; ++draw) {
-        now.seed = seed + static_cast<std::uint64_t>(draw);
-        Engine engine(now, {here}, {.threads = 1, .kernel = {}});
+        from.world.seed = seed + static_cast<std::uint64_t>(draw);
+        Engine engine(from.world, {from.swarm}, {.threads = 1, .kernel = {}});
         const auto on = [&] {
-          for (int step = 0; step < m * substeps; ++step) engine.Step();
-          return engine.State().position;
+          for (int step = 0; step < steps; ++step) engine.Step();
+          const FlockState state = engine.State();
+          std::vector<Vec3d> position;
+          for (const std::size_t k : from.place) position.push_back(state.position[k]);
+          return position;
         };
         const std::vector<Vec3d> middle = on(), after = on();
-        flown.push_back(SecondDifference(here.position, middle, after, m / fps));
+        flown.push_back(SecondDifference(window.state.position, middle, after, m / fps));
       }
     } catch (const std::runtime_error&) {
       flown.clear();  // it flew apart
+    }
+    return flown;
+  };
+}
+
+// From the scene's own start; each animal as the tetrahedron that it was nearest to before `split`.
+Flight FromSceneStart(const FitOptions& options, const FitProblem& problem, const FitResult& fit,
+                      const Trajectories& trajectories, double fps, int m, int split,
+                      std::uint64_t seed, int threads) {
+  struct Draw {
+    std::vector<FramePositions> frames;
+    std::vector<std::size_t> path;  // of each animal
+  };
+  const std::vector<FramePositions> frames = internal::FramesOf(trajectories);
+  const internal::FlightStart start =
+      internal::MakeFlightStart(options, problem, frames, trajectories, fps);
+  const int first = SpanOf(trajectories).first;
+  std::vector<Id> ids;
+  for (const Trajectory& trajectory : trajectories.trajectories) ids.push_back(trajectory.id);
+  std::vector<Draw> draws(kSeeds);
+  ParallelFor(threads, 0, kSeeds, 1, [&](std::int64_t k, std::int64_t) {
+    Draw& draw = draws[static_cast<std::size_t>(k)];
+    auto flown =
+        internal::Fly(start, fit.parameters.model, 1, seed + static_cast<std::uint64_t>(k));
+    if (!flown) return;
+    draw.frames = std::move(*flown);
+    std::vector<FramePositions> seen;
+    std::vector<std::vector<Vec3d>> there;
+    const int step = std::max(1, (split - first) / kMatched);
+    for (int f = 0; f < split - first; f += step) {
+      seen.push_back(frames[static_cast<std::size_t>(f)]);
+      there.push_back(draw.frames[static_cast<std::size_t>(f)].position);
+    }
+    draw.path = NearestPaths(ids, seen, there);
+  });
+  std::erase_if(draws, [](const Draw& draw) { return draw.frames.empty(); });
+  return [=](const Window& window) {
+    std::vector<std::vector<Vec3d>> flown;
+    for (const Draw& draw : draws) {
+      const auto middle = static_cast<std::size_t>(window.middle - first);
+      const auto width = static_cast<std::size_t>(m);
+      std::vector<Vec3d> at[3];
+      for (const int animal : window.state.animal) {
+        const std::size_t path = draw.path[static_cast<std::size_t>(animal)];
+        for (std::size_t k = 0; k < 3; ++k) {
+          at[k].push_back(draw.frames[middle + k * width - width].position[path]);
+        }
+      }
+      flown.push_back(SecondDifference(at[0], at[1], at[2], m / fps));
     }
     return flown;
   };
@@ -228,25 +276,16 @@ Flight AlongField(const FitOptions& options, const FitProblem& problem, const Fi
 
 }  // namespace
 
-std::string WhyNotFlown(const std::string& model) {
-  static const std::map<std::string, std::string> kReasons = {
-      {"shape", "it flies to meshes, which trajectories do not hold"},
-      {"morph", "it flies to the tetrahedra of meshes, which trajectories do not hold"},
-      {"crowd", "it walks in groups to goals of their own, which trajectories do not hold"},
-      {"forces", "it has no force but those that a scene gives it"}};
-  const auto found = kReasons.find(model);
-  return found == kReasons.end() ? "" : found->second;
-}
-
-SimulatedPrediction PredictBySimulation(const FitOptions& options, const FitProblem& problem,
+SimulatedPrediction PredictBySimulation(const FitOptions& options, const FitProblem& given,
                                         const Trajectories& trajectories, double fps,
                                         std::uint64_t seed, int threads) {
   Check(options.held_out > 0, "a prediction needs time that is held out");
-  const std::string why = WhyNotFlown(problem.model.name);
+  const FitProblem problem = internal::InScene(given);
+  const std::string why = problem.scene ? "" : WhyNoDeparture(problem.model);
   if (!why.empty()) {
     throw InputError(problem.model.where, 0,
                      "model " + problem.model.name + " cannot be flown from trajectories: " + why,
-                     "leave it out");
+                     "leave it out, or give its scene: --scene SCENE.toml");
   }
   const int split = FirstHeldOut(trajectories, options.held_out);
   const Trajectories early = BeforeFrame(trajectories, split);
@@ -255,12 +294,19 @@ SimulatedPrediction PredictBySimulation(const FitOptions& options, const FitProb
   if (!prediction.fit.IsUsable()) return prediction;
   const ObservedFlock flock(trajectories, fps, options.bridged_gap);
   const int m = options.window > 0 ? options.window : ChooseWindow(flock, options.longest_window);
-  const Flight fly =
-      problem.model.name == "swarm"
-          ? AlongField(options, problem, prediction.fit, flock, early, fps, m)
-          : ThroughEngine(options, problem, prediction.fit,
-                          OwnSpeeds(trajectories, fps, split, prediction.fit.own_speed_mean), fps,
-                          m, seed);
+  std::optional<Departures> departures;
+  Flight fly;
+  if (problem.model.name == "swarm") {
+    fly = AlongField(options, problem, prediction.fit, flock, early, fps, m);
+  } else if (DepartsFromSceneStart(problem.model)) {
+    fly = FromSceneStart(options, problem, prediction.fit, trajectories, fps, m, split, seed,
+                         threads);
+  } else {
+    departures.emplace(problem.scene, prediction.fit.parameters, early, fps, options.substeps);
+    fly = ThroughEngine(*departures, trajectories,
+                        OwnSpeeds(trajectories, fps, split, prediction.fit.own_speed_mean), fps, m,
+                        seed);
+  }
   const Scorer scorer(flock, m, threads);
   const Sums before = scorer.Score(flock.span().first, split - 1, fly);
   const Sums after = scorer.Score(split, flock.span().last, fly);

@@ -10,6 +10,8 @@
 //   bswarm and others   yhat is the mean over R noise seeds of the shared engine's flights;
 //   |yhat|^2
 //                       by products of different seeds, which their noise does not add to
+//                       In a scene they fly among its surroundings (departure.h); tetrahedra that
+//                       morph fly there from the scene's start on, whatever the state
 //   swarm               another seed is another field, and their mean is none: yhat drifts in the
 //                       field expected (noise_evidence.h) of the velocities seen before, over the
 //                       first part, or, of noise that evolves, just before the window. Animals that
@@ -31,9 +33,6 @@ struct SimulatedPrediction {
   FitResult fit;  // of the first part of the time
   std::optional<double> r2;
 };
-
-// Why the model cannot be flown from a state of trajectories, in a line; empty when it can.
-std::string WhyNotFlown(const std::string& model);
 
 // Of `options`: held_out (above 0), window, longest_window, and what the fit takes. Throws what
 // FitModel throws, and InputError for a model that cannot be flown.

@@ -23,19 +23,6 @@ namespace {
 
 constexpr double kMisfit = 2;  // sd from seed to seed: above, a statistic is not matched
 
-std::vector<FramePositions> FramesOf(const Trajectories& trajectories) {
-  const FrameSpan span = SpanOf(trajectories);
-  std::vector<FramePositions> frames(static_cast<std::size_t>(span.last - span.first + 1));
-  for (const Trajectory& trajectory : trajectories.trajectories) {  // by increasing id
-    for (const TrajectoryPoint& point : trajectory.points) {
-      FramePositions& frame = frames[static_cast<std::size_t>(point.frame - span.first)];
-      frame.id.push_back(trajectory.id);
-      frame.position.push_back(point.position);
-    }
-  }
-  return frames;
-}
-
 // What is searched: the size of each number, which keeps its sign.
 struct Sizes {
   std::vector<double> value, sign;

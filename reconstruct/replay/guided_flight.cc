@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "reconstruct/fit/scene_terms.h"
 #include "simulate/core/check.h"
 #include "simulate/flock/integrator.h"
 #include "simulate/flock/model.h"
@@ -17,7 +18,8 @@ namespace {
 double CruiseRate(const ModelSpec& model) {
   const ModelParameters parameters = ResolveModel(model);
   const auto* boids = std::get_if<BoidsParameters<double>>(&parameters);
-  return boids == nullptr ? 0 : InSeconds(*boids).cruise;
+  const double own = boids == nullptr ? 0 : InSeconds(*boids).cruise;
+  return own + CruiseRateOfTerms(model);
 }
 
 std::optional<GoalSpec> FirstGoal(const Parameters& parameters) {
@@ -29,8 +31,9 @@ std::optional<GoalSpec> FirstGoal(const Parameters& parameters) {
 
 GuidedFlight::GuidedFlight(const Parameters& parameters, double alpha, double pull_time,
                            std::vector<Vec3d> position, std::vector<Vec3d> velocity,
-                           std::vector<double> cruising_speed)
-    : terms_(MakeFlockTerms(parameters.model, {}, parameters.walls, FirstGoal(parameters))),
+                           std::vector<double> cruising_speed, const TermSurroundings& around)
+    : terms_(
+          MakeFlockTerms(parameters.model, {}, parameters.walls, FirstGoal(parameters), 0, around)),
       alpha_(alpha),
       pull_time_(pull_time),
       cruise_(CruiseRate(parameters.model)),

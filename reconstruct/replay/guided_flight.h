@@ -26,10 +26,11 @@ struct PathPoint {
 
 class GuidedFlight {
  public:
-  // `cruising_speed`: each animal's own [m/s]. Throws InputError for a model without accelerations.
+  // `cruising_speed`: each animal's own [m/s]; `around`: what the terms of a scene feel. Throws
+  // InputError for a model without accelerations.
   GuidedFlight(const Parameters& parameters, double alpha, double pull_time,
                std::vector<Vec3d> position, std::vector<Vec3d> velocity,
-               std::vector<double> cruising_speed);
+               std::vector<double> cruising_speed, const TermSurroundings& around = {});
 
   // `paths`: one per animal, at the start of the step.
   void Step(const std::vector<std::optional<PathPoint>>& paths, double dt);

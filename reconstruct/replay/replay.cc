@@ -14,7 +14,7 @@
 #include <variant>
 
 #include "reconstruct/metrics/flock_statistics.h"
-#include "reconstruct/replay/guided_flight.h"
+#include "reconstruct/replay/replay_flight.h"
 #include "simulate/core/check.h"
 #include "simulate/core/rng.h"
 #include "simulate/flock/engine.h"
@@ -53,15 +53,8 @@ double MedianNeighbourDistance(const FlockState& state) {
   return *middle;
 }
 
-// The flock at the start: its animals, then copies of randomly chosen ones.
-struct Start {
-  std::vector<Id> id;
-  Swarm swarm;
-  std::vector<Id> source;     // whose path each animal follows when guided
-  std::vector<Vec3d> offset;  // ... and how far aside [m]
-};
-
-Start MakeStart(const Trajectories& reconstruction, int frame, int count, std::uint64_t seed) {
+ReplayStart MakeStart(const Trajectories& reconstruction, int frame, int count,
+                      std::uint64_t seed) {
   const FlockState state = StateAtFrame(reconstruction, frame);
   Check(state.size() > 0, "frame " + std::to_string(frame) + " has no animals to start from");
   std::unordered_map<Id, double> cruising_speed;
@@ -72,8 +65,8 @@ Start MakeStart(const Trajectories& reconstruction, int frame, int count, std::u
   }
   const std::size_t wanted = count > 0 ? static_cast<std::size_t>(count) : state.size();
   const double spacing = MedianNeighbourDistance(state);
-  Start start;
-  start.swarm.species = "replay";
+  ReplayStart start;
+  start.frame = frame;
   for (std::size_t k = 0; k < wanted; ++k) {
     std::size_t source = k;
     Vec3d offset;
@@ -89,9 +82,9 @@ Start MakeStart(const Trajectories& reconstruction, int frame, int count, std::u
     start.id.push_back(id);
     start.source.push_back(state.id[source]);
     start.offset.push_back(offset);
-    start.swarm.position.push_back(state.position[source] + offset);
-    start.swarm.velocity.push_back(state.velocity[source]);
-    start.swarm.cruising_speed.push_back(cruising_speed.at(state.id[source]));
+    start.position.push_back(state.position[source] + offset);
+    start.velocity.push_back(state.velocity[source]);
+    start.cruising_speed.push_back(cruising_speed.at(state.id[source]));
   }
   return start;
 }
@@ -108,7 +101,7 @@ void Append(const FlockState& state, int frame, Trajectories* replayed) {
 }
 
 Divergence Compare(const FlockState& reconstruction, const std::vector<Id>& ids,
-                   const FlockState& replayed, const Swarm& start, double time) {
+                   const FlockState& replayed, const ReplayStart& start, double time) {
   std::unordered_map<Id, Vec3d> truth;
   for (std::size_t k = 0; k < reconstruction.size(); ++k) {
     truth.emplace(reconstruction.id[k], reconstruction.position[k]);
@@ -127,70 +120,6 @@ Divergence Compare(const FlockState& reconstruction, const std::vector<Id>& ids,
   divergence.straight_on_rms = std::sqrt(divergence.straight_on_rms / n);
   return divergence;
 }
-
-// Flies the start on, a frame at a time.
-class Flight {
- public:
-  virtual ~Flight() = default;
-  virtual FlockState NextFrame() = 0;
-};
-
-// By the engine, the model alone.
-class FreeFlight : public Flight {
- public:
-  FreeFlight(const World& world, const Swarm& swarm, int substeps, int threads)
-      : engine_(world, {swarm}, {.threads = threads, .kernel = {}}), substeps_(substeps) {}
-  FlockState NextFrame() override {
-    for (int step = 0; step < substeps_; ++step) engine_.Step();
-    return engine_.State();
-  }
-
- private:
-  Engine engine_;
-  int substeps_;
-};
-
-class PulledFlight : public Flight {
- public:
-  PulledFlight(const ReplayOptions& options, const Parameters& parameters,
-               const Trajectories& reconstruction, const Start& start, int frame, double fps)
-      : flight_(parameters, options.alpha, options.pull_time, start.swarm.position,
-                start.swarm.velocity, start.swarm.cruising_speed),
-        reconstruction_(reconstruction),
-        start_(start),
-        frame_(frame),
-        substeps_(options.substeps),
-        fps_(fps) {}
-
-  FlockState NextFrame() override {
-    const FlockState now = StateAtFrame(reconstruction_, frame_);
-    const FlockState next = StateAtFrame(reconstruction_, ++frame_);
-    std::unordered_map<Id, std::size_t> now_index, next_index;
-    for (std::size_t k = 0; k < now.size(); ++k) now_index.emplace(now.id[k], k);
-    for (std::size_t k = 0; k < next.size(); ++k) next_index.emplace(next.id[k], k);
-    std::vector<std::optional<PathPoint>> paths(start_.id.size());
-    for (int step = 0; step < substeps_; ++step) {
-      const double u = static_cast<double>(step) / substeps_;
-      for (std::size_t k = 0; k < paths.size(); ++k) {
-        const auto a = now_index.find(start_.source[k]), b = next_index.find(start_.source[k]);
-        paths[k].reset();
-        if (a == now_index.end() || b == next_index.end()) continue;
-        const Vec3d& from = now.position[a->second];
-        const Vec3d& to = next.position[b->second];
-        paths[k] = PathPoint{from + u * (to - from) + start_.offset[k], (to - from) * fps_};
-      }
-      flight_.Step(paths, 1 / (fps_ * substeps_));
-    }
-    return {start_.id, flight_.position(), flight_.velocity()};
-  }
-
- private:
-  GuidedFlight flight_;
-  const Trajectories& reconstruction_;
-  const Start& start_;
-  int frame_, substeps_;
-  double fps_;
-};
 
 struct SetNoise {
   double value;
@@ -231,61 +160,76 @@ void CheckObstacles(const ReplayOptions& options, const ModelSpec& model,
   Check(options.alpha == 1, "obstacles stand in free flights only: leave out --alpha");
 }
 
+// What the terms of the scene's species feel, as it is when a flight starts.
+TermSurroundings Around(const Departures& departures, const Parameters& parameters, double time) {
+  TermSurroundings around{.walls = parameters.walls};
+  around.goals = departures.world().goals;
+  for (GoalSpec& goal : around.goals) goal.position = GoalPosition(goal, time);
+  around.wind = departures.world().wind.velocity;
+  around.flat = departures.world().dimensions == 2;
+  return around;
+}
+
 }  // namespace
 
 ReplayResult Replay(const ReplayOptions& options, const Parameters& parameters,
                     const Trajectories& reconstruction, double fps, std::uint64_t seed, int threads,
-                    const Progress& progress, const std::vector<ObstacleSpec>& obstacles) {
+                    const Progress& progress, const std::vector<ObstacleSpec>& obstacles,
+                    const std::optional<Scene>& scene) {
   CheckOptions(options);
   Check(fps > 0, "fps must be positive to replay");
   Check(reconstruction.has_velocity, "a replay starts from velocities: fill them first");
   CheckObstacles(options, parameters.model, obstacles);
   ReplayResult result;
   result.start_frame = options.frame > 0 ? options.frame : FullestFrame(reconstruction);
-  Start start = MakeStart(reconstruction, result.start_frame, options.count, seed);
-  start.swarm.model = ResolveModel(parameters.model);
-  start.swarm.forces = parameters.model.terms;
+  const Departures departures(scene, parameters, reconstruction, fps, options.substeps);
+  const int substeps = departures.substeps();
+  const bool from_scene_start = DepartsFromSceneStart(parameters.model);
+  Check(!from_scene_start || (options.alpha == 1 && options.count == 0),
+        "tetrahedra that morph fly as their scene has them: leave out --alpha and --count");
+  ReplayStart start = MakeStart(reconstruction, result.start_frame, options.count, seed);
   const int frames = options.duration > 0 ? static_cast<int>(std::lround(options.duration * fps))
                                           : SpanOf(reconstruction).last - result.start_frame;
-
-  World world{.seed = seed,
-              .dt = 1 / (fps * options.substeps),
-              .time = (result.start_frame - 1) / fps,
-              .goals = parameters.goals,
-              .predators = {}};
-  if (parameters.walls) world.box = *parameters.walls;
-  Scene scene;
-  scene.obstacles = obstacles;
-  world.obstacles = LoadObstacles(scene);
-  std::unique_ptr<Flight> flight, perturbed, noiseless;
-  if (options.alpha < 1) {
-    flight = std::make_unique<PulledFlight>(options, parameters, reconstruction, start,
-                                            result.start_frame, fps);
+  const double time = (result.start_frame - 1) / fps;
+  std::unique_ptr<ReplayFlight> flight, perturbed, noiseless;
+  if (from_scene_start) {
+    flight = FlyFromSceneStart(departures, seed, threads, reconstruction, fps, &start);
+  } else if (options.alpha < 1) {
+    flight = FlyPulled(parameters, Around(departures, parameters, time), options.alpha,
+                       options.pull_time, substeps, reconstruction, start, fps);
   } else {
-    if (options.noiseless) start.swarm = Noiseless(start.swarm);
-    flight = std::make_unique<FreeFlight>(world, start.swarm, options.substeps, threads);
-    perturbed = std::make_unique<FreeFlight>(world, Perturbed(start.swarm, seed), options.substeps,
-                                             threads);
-    noiseless =
-        std::make_unique<FreeFlight>(world, Noiseless(start.swarm), options.substeps, threads);
+    Departure from =
+        departures.At(time, start.id, start.position, start.velocity, start.cruising_speed);
+    from.world.seed = seed;
+    Scene others;
+    others.obstacles = obstacles;
+    for (Obstacle& obstacle : LoadObstacles(others)) {
+      from.world.obstacles.push_back(std::move(obstacle));
+    }
+    if (options.noiseless) from.swarm = Noiseless(from.swarm);
+    const auto fly = [&](const Swarm& swarm) {
+      return FlyFreely(start.id, {from.world, swarm, from.place}, substeps, threads);
+    };
+    flight = fly(from.swarm);
+    perturbed = fly(Perturbed(from.swarm, seed));
+    noiseless = fly(Noiseless(from.swarm));
   }
   result.replayed.fps = fps;
   result.replayed.has_velocity = result.replayed.has_orientation = true;
   for (const Id id : start.id) result.replayed.trajectories.push_back({.id = id, .points = {}});
 
-  Append({start.id, start.swarm.position, start.swarm.velocity}, result.start_frame,
-         &result.replayed);
+  Append({start.id, start.position, start.velocity}, result.start_frame, &result.replayed);
   for (int k = 1; k <= frames; ++k) {
     const int frame = result.start_frame + k;
     const FlockState state = flight->NextFrame();
     Append(state, frame, &result.replayed);
     const FlockState there = StateAtFrame(reconstruction, frame);
-    Divergence divergence = Compare(there, start.id, state, start.swarm, k / fps);
+    Divergence divergence = Compare(there, start.id, state, start, k / fps);
     divergence.noiseless_rms = divergence.model_rms;
     if (perturbed) {
       divergence.perturbed_rms = RmsDistance(state.position, perturbed->NextFrame().position);
       divergence.noiseless_rms =
-          Compare(there, start.id, noiseless->NextFrame(), start.swarm, k / fps).model_rms;
+          Compare(there, start.id, noiseless->NextFrame(), start, k / fps).model_rms;
     }
     if (divergence.animals > 0) result.divergence.push_back(divergence);
     Report(progress, k, frames);

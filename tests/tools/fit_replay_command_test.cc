@@ -129,7 +129,7 @@ TEST_F(FitReplayCommandTest, FitsWithinAScene) {
   Scene scene;
   scene.fps = 10;
   scene.substeps = 1;
-  scene.duration = 2;
+  scene.duration = 4;
   scene.box = {{-10, -5, 0}, {10, 5, 0.5}};
   SpeciesSpec walkers;
   walkers.count = 12;
@@ -143,7 +143,8 @@ TEST_F(FitReplayCommandTest, FitsWithinAScene) {
   WriteScene(folder_ / "scene.toml", scene);
   const fs::path out = Run("fit " + (folder_ / "walkers.csv").string() + " --model crowd --scene " +
                                (folder_ / "scene.toml").string() +
-                               " --free f_max --set f_max=1 --search bobyqa --local-evaluations 15",
+                               " --free f_max --set f_max=1 --search bobyqa --local-evaluations 15"
+                               " --window 1 --compare crowd,linear",
                            "crowd");
   const Parameters parameters = ReadParameters(out / "parameters.toml");
   EXPECT_EQ(parameters.model.parameters.at("gamma"), 2);
@@ -151,6 +152,21 @@ TEST_F(FitReplayCommandTest, FitsWithinAScene) {
   const nlohmann::json figures = Figures(out / "summary.fit.json");
   EXPECT_EQ(figures.at("method"), "statistics");
   EXPECT_TRUE(figures.at("misfit").contains("target_distance"));
+  std::map<std::string, double> of;
+  for (const auto& score : figures.at("comparison")) {
+    if (!score.at("r2_held_out").is_null()) of[score.at("model")] = score.at("r2_held_out");
+  }
+  EXPECT_LT(of.at("crowd"), 1);
+  const std::string replay = "replay " + (folder_ / "walkers.csv").string() + " --parameters " +
+                             (out / "parameters.toml").string();
+  EXPECT_THROW(Run(replay, "none"), InputError);  // where do they go?
+  EXPECT_FALSE(fs::exists(folder_ / "none" / "trajectories.csv"));
+  const auto end =
+      Figures(Run(replay + " --frame 1 --scene " + (folder_ / "scene.toml").string(), "replay") /
+              "summary.replay.json")
+          .at("divergence")
+          .back();
+  EXPECT_LT(end.at("model_rms"), 0.5 * end.at("straight_on_rms").get<double>());
 }
 
 // The forces of a scene have names, which parameters.toml keeps and a replay flies by.

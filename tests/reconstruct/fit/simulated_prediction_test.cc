@@ -7,11 +7,12 @@
 
 #include <cmath>
 
+#include "reconstruct/fit/departure.h"
 #include "reconstruct/fit/expected_field.h"
 #include "reconstruct/fit/held_out.h"
 #include "simulate/core/check.h"
 #include "simulate/fields/curl_noise.h"
-#include "tests/reconstruct/fit/flocks.h"
+#include "tests/reconstruct/fit/scene_flocks.h"
 
 namespace flocklift {
 namespace {
@@ -139,10 +140,31 @@ TEST(SimulatedPrediction, ASwarmDriftsInTheFieldThatWasSeen) {
   }
 }
 
+SimulatedPrediction PredictInScene(const Scene& scene, const std::string& free) {
+  FitProblem problem = ProblemOf(scene);
+  problem.free = {free};
+  problem.search = SimulatedSearch::kBobyqa;
+  return PredictBySimulation(Quick(), problem, Fly(scene), scene.fps, 1, 2);
+}
+
+// Straight on is 0.
+TEST(SimulatedPrediction, ForeseesWhatAScenesTargetsDo) {
+  const SimulatedPrediction shape = PredictInScene(ShapeScene(), "alpha");
+  const SimulatedPrediction crowd = PredictInScene(CrowdScene(), "f_max");
+  const SimulatedPrediction morph = PredictInScene(MorphScene(), "speed0");
+  EXPECT_GT(shape.r2.value(), 0.5);
+  EXPECT_GT(crowd.r2.value(), 0.2);
+  EXPECT_GT(morph.r2.value(), 0.5);
+}
+
+ModelSpec Named(const char* name) {
+  return {.name = name, .parameters = {}, .where = {}, .where_of = {}};
+}
+
 TEST(SimulatedPrediction, SaysWhyAModelCannotBeFlown) {
-  EXPECT_TRUE(WhyNotFlown("bswarm").empty());
+  EXPECT_TRUE(WhyNoDeparture(Named("bswarm")).empty());
   for (const char* const name : {"shape", "morph", "crowd", "forces"}) {
-    EXPECT_FALSE(WhyNotFlown(name).empty());
+    EXPECT_FALSE(WhyNoDeparture(Named(name)).empty());
     FitProblem problem;
     problem.model.name = name;
     EXPECT_THROW(PredictBySimulation({}, problem, Fly(FliesScene()), 20, 1, 1), InputError);

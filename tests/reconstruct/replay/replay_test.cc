@@ -13,6 +13,7 @@
 #include "simulate/core/check.h"
 #include "simulate/core/rng.h"
 #include "simulate/flock/simulate_scene.h"
+#include "tests/reconstruct/fit/scene_flocks.h"
 
 namespace flocklift {
 namespace {
@@ -281,6 +282,48 @@ TEST(Replay, RefusesAFrameWithoutAnimals) {
   options.frame = 1;
   const ModelSpec boids{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
   EXPECT_THROW(Replay(options, By(boids), Pair(), kFps, 1, 1), std::invalid_argument);
+}
+
+// A flock of the scene, flown on within it by its own numbers and another seed.
+ReplayResult InScene(const Scene& scene, int frame) {
+  const SpeciesSpec& species = scene.species[0];
+  Parameters parameters = By(species.model);
+  for (const ModelSpec& force : species.forces) parameters.model.terms.push_back(force);
+  ReplayOptions options;
+  options.frame = frame;
+  return Replay(options, parameters, Fly(scene), scene.fps, scene.seed + 1, 1, {}, {}, scene);
+}
+
+TEST(Replay, FliesToWhatASceneHolds) {
+  for (const Scene& scene : {ShapeScene(), CrowdScene(), MorphScene()}) {
+    const ReplayResult result = InScene(scene, 8);
+    ASSERT_FALSE(result.divergence.empty());
+    const Divergence& end = result.divergence.back();
+    EXPECT_EQ(end.animals, scene.species[0].count);
+    EXPECT_LT(end.model_rms, 0.7 * end.straight_on_rms) << scene.species[0].model.name;
+  }
+}
+
+TEST(Replay, TheForcesOfASceneFeelItsWind) {
+  Scene scene = OpenSkyScene();
+  scene.wind.velocity = {0, 0, 12};
+  SpeciesSpec& birds = scene.species[0];
+  birds.model = {.name = "forces", .parameters = {{"s_max", 50}}, .where = {}, .where_of = {}};
+  birds.forces = {{.name = "wind", .parameters = {{"rate", 0.5}}, .where = {}, .where_of = {}},
+                  {.name = "noise", .parameters = {{"sd", 1}}, .where = {}, .where_of = {}}};
+  const Divergence end = InScene(scene, 1).divergence.back();
+  EXPECT_LT(end.noiseless_rms, 0.3 * end.straight_on_rms);
+  EXPECT_LT(end.noiseless_rms, end.model_rms);
+  Parameters parameters = By(birds.model);
+  parameters.model.terms = birds.forces;
+  const Trajectories truth = Fly(scene);
+  EXPECT_THROW(Replay({}, parameters, truth, kFps, 1, 1), InputError);  // no wind is known
+  ReplayOptions guided;
+  guided.frame = 1;
+  guided.alpha = 0.95;
+  EXPECT_LT(
+      Replay(guided, parameters, truth, kFps, 1, 1, {}, {}, scene).divergence.back().model_rms,
+      0.3 * end.straight_on_rms);
 }
 
 }  // namespace
