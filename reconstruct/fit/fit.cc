@@ -17,6 +17,7 @@
 #include "reconstruct/fit/fit_warnings.h"
 #include "reconstruct/fit/fitter.h"
 #include "reconstruct/fit/process_model.h"
+#include "reconstruct/fit/radius_choice.h"
 #include "reconstruct/fit/state_space.h"
 #include "reconstruct/fit/statistics_fit.h"
 #include "reconstruct/fit/swarm_noise.h"
@@ -223,7 +224,7 @@ FitResult FitModel(const FitOptions& options, const FitProblem& given,
                    const Progress& progress) {
   CheckOptions(options);
   Check(fps > 0, "fps must be positive");
-  const FitProblem problem = internal::InScene(given);
+  FitProblem problem = internal::InScene(given);
   if (problem.scene && problem.model.name == "swarm") {
     throw InputError("--scene", 0, "the noise of a swarm is sought without its surroundings",
                      "leave the scene out, and give --walls and --goal");
@@ -246,12 +247,20 @@ FitResult FitModel(const FitOptions& options, const FitProblem& given,
                      "take --method statistics");
   }
   FitOptions chosen = internal::InScene(options, problem, fps);
+  std::vector<std::string> notes;
+  if (!trajectories.has_sd_depth &&
+      (problem.method == FitMethod::kAuto || problem.method == FitMethod::kErrorsInVariables)) {
+    problem = internal::ChooseRadii(chosen, problem, trajectories, fps, seed, threads, &notes);
+  }
   if (options.window == 0 && trajectories.has_sd_depth &&
       problem.method != FitMethod::kStateSpace && problem.method != FitMethod::kDifferences) {
     chosen.window =
         internal::ChooseWindowByFlight(chosen, problem, trajectories, fps, seed, threads);
   }
-  return internal::Fitter(chosen, problem, trajectories, fps, seed, threads).Run(progress);
+  FitResult result =
+      internal::Fitter(chosen, problem, trajectories, fps, seed, threads).Run(progress);
+  result.warnings.insert(result.warnings.begin(), notes.begin(), notes.end());
+  return result;
 }
 
 }  // namespace flocklift
