@@ -89,7 +89,7 @@ std::vector<std::string> StatisticsParameters(const ModelSpec& model) {
   if (model.name == "shape") names = {"alpha", "w_dis", "s_max", "drag", "gain"};
   if (model.name == "morph") names = {"speed0", "omega1", "omega2", "departure_time"};
   if (model.name == "crowd") names = {"f_max", "f_min", "alpha", "gamma"};
-  if (names.empty() && !NeedsScene(model.name)) {
+  if (names.empty() && !model.terms.empty()) {
     const std::vector<std::string> terms = TermWeights(model);
     names = LinearWeights(model);
     std::erase_if(names, [&](const std::string& name) {  // they come below

@@ -25,9 +25,9 @@ bool KnownByStatistics(const std::string& model);
 
 // What is freed when nothing is named: of bswarm and opensteer the weights and radii, of lin what
 // leads to the target; of shape the share of its own forces, the pull, the speed's limits and the
-// noise, of morph speed, weights and time of departure, of crowd speeds and costs; of models that
-// have weights these. Of the terms that a scene adds gain, rate, g or sd of each. In a scene as far
-// as they are not 0.
+// noise, of morph speed, weights and time of departure, of crowd speeds and costs; of others
+// nothing, and with terms that a scene adds their weights. Of those gain, rate, g or sd of each. In
+// a scene as far as they are not 0.
 std::vector<std::string> StatisticsParameters(const ModelSpec& model);
 
 // Does the model fly to what only a scene says?
