@@ -25,6 +25,12 @@ SimulatedFit Search::Run() {
              options_.global_evaluations, &x);
   }
   Optimize(nlopt::LN_BOBYQA, options_.local_evaluations, &x);
+  if (options_.search != SimulatedSearch::kBobyqa && Lack(spread) > 1) {
+    std::vector<double> again(start_.size(), 0);
+    expected_ += options_.local_evaluations;
+    Optimize(nlopt::LN_BOBYQA, options_.local_evaluations, &again);
+    x = best_;
+  }
   fit.cost = best_cost_;
   if (!TakeSpread(x, &spread)) return fit;
   fit.usable = true;

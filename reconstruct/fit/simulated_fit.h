@@ -7,21 +7,23 @@
 //   J(theta) = sum_q ((mean_r S_q(theta, seed_r) - S_q data) / sd_q)^2
 // with sd_q from seed to seed at the start, and the same seeds at every theta, so that J is a
 // function. Searched in log theta, between theta / range and theta range, by NLopt: a global search
-// (controlled random search, or ISRES) and BOBYQA from where it ends, or BOBYQA alone. With
+// (controlled random search, or ISRES) and BOBYQA from where it ends, or BOBYQA alone; where J then
+// is above that of another seed's data, BOBYQA from the start too. With
 // G = dS / d log theta, W = diag(1 / sd^2) and C the covariance of S between seeds, at the
 // estimate,
 //   cov log theta = (1 + 1/R) M C M',   M = (G' W G)^-1 G' W
 // so that what the statistics do not feel, beside their spread from seed to seed, has a large sd.
-// sd_q is at least 0.3 % of the statistic's largest quantile, and C that on its diagonal: no model
-// is nearer to what it models, and one without noise has no spread. Where J at its best is above
-// that of another seed's data the covariance is as many times larger. The search keeps to the
-// model's range. That is the bend of J at one point, and J may be as low far away. Acceptable is a
-// theta whose J is no greater than another seed of the estimate would have as data, or no farther
-// above the best J than J differs between such seeds. The sd is no less than 1 / 1.96 of the way to
-// the farthest acceptable theta tried. As long as that leaves a parameter known, the others are
-// fitted again with it held 3 sd or more away, on either side (BOBYQA in that part of the search's
-// box, from three places), until nothing acceptable is found there or it is no longer known. Of one
-// that is not known the sd is a least one; it is infinite where the search ended near its bounds.
+// sd_q is at least 0.3 % of the statistic's largest quantile (of polarisation 0.003), and C that on
+// its diagonal: no model is nearer to what it models, and one without noise has no spread. Where J
+// at its best is above that of another seed's data the covariance is as many times larger. The
+// search keeps to the model's range. That is the bend of J at one point, and J may be as low far
+// away. Acceptable is a theta whose J is no greater than another seed of the estimate would have as
+// data, or no farther above the best J than J differs between such seeds. The sd is no less than 1
+// / 1.96 of the way to the farthest acceptable theta tried. As long as that leaves a parameter
+// known, the others are fitted again with it held 3 sd or more away, on either side (BOBYQA in that
+// part of the search's box, from three places), until nothing acceptable is found there or it is no
+// longer known. Of one that is not known the sd is a least one; it is infinite where the search
+// ended near its bounds.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_SIMULATED_FIT_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_SIMULATED_FIT_H_

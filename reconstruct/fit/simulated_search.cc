@@ -65,7 +65,10 @@ bool Search::TakeSpread(const std::vector<double>& x, Eigen::MatrixXd* spread) {
   floor_.resize(data_.size());
   const auto quantiles = static_cast<Eigen::Index>(kMotionQuantiles.size());
   for (Eigen::Index q = 0; q < data_.size(); q += quantiles) {
-    floor_.segment(q, quantiles) = kSmallSpread * data_.segment(q, quantiles).abs().maxCoeff();
+    const double largest = data_.segment(q, quantiles).abs().maxCoeff();
+    const bool is_share =
+        kMotionStatistics[static_cast<std::size_t>(q / quantiles)] == "polarisation";
+    floor_.segment(q, quantiles) = kSmallSpread * (is_share ? std::max(largest, 1.0) : largest);
   }
   sd_ = spread->rowwise().norm().array().max(floor_).max(1e-12);
   return true;
