@@ -6,8 +6,9 @@ import numpy as np
 
 
 def ring(points, clockwise=False):
-    """A closed outline as an array, counter-clockwise (or clockwise: a hole)."""
-    p = np.asarray(points, float)
+    """A closed outline as an array, counter-clockwise (or clockwise: a hole); rounded, so that the
+    last bits of sines do not decide where it is cut into triangles."""
+    p = np.round(np.asarray(points, float), 9)
     area = (p[:, 0] * np.roll(p[:, 1], -1) - np.roll(p[:, 0], -1) * p[:, 1]).sum()
     return p[::-1] if (area < 0) != clockwise else p
 
