@@ -73,6 +73,11 @@ int main(int argc, char** argv) {
                        folder.filename().string(), method.name, 100 * run.scores.error_median,
                        100 * run.scores.error_p90, 100 * run.scores.scaled_error_median,
                        100 * run.scores.scaled_error_p90, run.cpu_ms);
+            if (run.scores.relative_within_1sd && run.scores.relative_within_2sd) {
+              fmt::print(stderr, "  relative depth within 1 and 2 sds: {:.0f}, {:.0f} %\n",
+                         100 * *run.scores.relative_within_1sd,
+                         100 * *run.scores.relative_within_2sd);
+            }
             for (const std::string& warning : run.report.warnings) {
               fmt::print(stderr, "  {}\n", warning);
             }
