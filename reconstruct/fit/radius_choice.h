@@ -26,8 +26,7 @@
 namespace flocklift::internal {
 
 // The problem with the radii chosen, and a sentence for each, and with a goal to be sought where
-// these need one to fly better; as it is where one is given
-// or free, or the model knows none.
+// these need one to fly better; as it is where one is given or free, or the model knows none.
 FitProblem ChooseRadii(const FitOptions& options, const FitProblem& problem,
                        const Trajectories& trajectories, double fps, std::uint64_t seed,
                        int threads, std::vector<std::string>* notes);
