@@ -204,5 +204,21 @@ TEST_F(DepthTableTest, ForcesTellDepthWhereAFlockHasThem) {
   EXPECT_LT(error, 0.75 * batch_error);
 }
 
+// Without sizes the batch solution hardly knows who is in front: the start that draws the flock
+// together finds that too.
+TEST_F(DepthTableTest, ForcesTellDepthWithoutSizesToo) {
+  std::ofstream(folder_ / "depth_circling.toml") << kCircling;
+  const DepthMethod batch{.name = "batch", .use_size = false};
+  const DepthMethod dynamics{
+      .name = "dynamics", .method = ReconstructMethod::kDynamics, .use_size = false};
+  double batch_error = 0, error = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const DepthTwin twin = MakeDepthTwin({.scene = "circling"}, folder_, 12, seed, 1);
+    batch_error += RunDepthMethod(batch, twin, 1).scores.scaled_error_median;
+    error += RunDepthMethod(dynamics, twin, 1).scores.scaled_error_median;
+  }
+  EXPECT_LT(error, 0.7 * batch_error);
+}
+
 }  // namespace
 }  // namespace flocklift
