@@ -27,8 +27,7 @@ class BoidsMotion final : public Motion<T> {
         noise_(Stream::kNoise, herd.size()) {}
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
-    herd->SortBy(std::max(Reach(p_), forces_.Reach()), pool);
-    AddPairs(pool, herd);
+    AddPairs(around.dt(), pool, herd);
     forces_.Add(around, pool, herd);
     pool->For(0, static_cast<std::int64_t>(herd->size()), kAgentGrain,
               [&](std::int64_t first, std::int64_t last) { Move(around, first, last, herd); });
@@ -38,17 +37,25 @@ class BoidsMotion final : public Motion<T> {
   }
   void Save(StateWriter* out) const override {
     out->Put(noise_.state());
+    lists_.Save(out);
     forces_.Save(out);
   }
   void Load(StateReader* in) override {
     in->Take(&noise_.state());
+    lists_.Load(in);
     forces_.Load(in);
   }
 
  private:
-  void AddPairs(ThreadPool* pool, Herd<T>* herd) const {
+  // Other terms may need the order of cells at every step; else lists are kept where they last.
+  void AddPairs(double dt, ThreadPool* pool, Herd<T>* herd) {
+    const NearReach<T> reach{static_cast<T>(Reach(p_)), T(0)};
+    const bool listed = p_.nearest == 0 && forces_.Reach() <= 0 &&
+                        lists_.UpdateIfWorth(reach, dt, kernel_, pool, herd);
+    if (!listed) herd->SortBy(std::max(Reach(p_), forces_.Reach()), pool);
     NeighbourLists nearest;
     PairTask<T> task = TaskOf(herd);
+    if (listed) task.lists = &lists_;
     if (p_.nearest > 0) {
       nearest = FindNearest(herd->now, static_cast<int>(p_.nearest), pool);
       task.nearest = &nearest;
@@ -104,6 +111,7 @@ class BoidsMotion final : public Motion<T> {
 
   BoidsParameters<double> p_;    // in seconds
   const KernelVariant* kernel_;  // null: scalar
+  VerletLists<T> lists_{kListSkin};
   ForcePasses<T> forces_;
   CorrelatedNoise<T> noise_;
 };

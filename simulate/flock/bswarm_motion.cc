@@ -55,10 +55,12 @@ class BSwarmMotion final : public Motion<T> {
   Room room() const override { return Avoids(Avoidance::kDistance) ? Room{p_.room, 1.0} : Room{}; }
   void Save(StateWriter* out) const override {
     out->Put(noise_.state());
+    lists_.Save(out);
     forces_.Save(out);
   }
   void Load(StateReader* in) override {
     in->Take(&noise_.state());
+    lists_.Load(in);
     forces_.Load(in);
   }
 
@@ -70,9 +72,17 @@ class BSwarmMotion final : public Motion<T> {
   static T F(double value) { return static_cast<T>(value); }
   bool Avoids(Avoidance how) const { return p_.avoid.index == static_cast<int>(how); }
 
-  // The three zones. With a sample, repulsion still hears everybody who is near: a pass of its own
-  // in an order of its own, whose result is kept by animal.
+  // The three zones, from lists that are kept where they last and nothing else needs an order of
+  // its own. With a sample, repulsion still hears everybody who is near: a pass of its own in an
+  // order of its own, whose result is kept by animal.
   void AddNeighbours(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) {
+    const NearReach<T> reach{F(Reach(p_.zones)), T(0)};
+    if (p_.most == 0 && forces_.Reach() <= 0 && !Avoids(Avoidance::kOrca) &&
+        lists_.UpdateIfWorth(reach, around.dt(), kernel_, pool, herd)) {
+      PairTask<T> task = TaskOf(herd);
+      task.lists = &lists_;
+      return SumPairs<T>(p_.zones, kernel_, task, pool);
+    }
     ZoneParameters far = p_.zones;
     if (p_.most > 0) {
       ZoneParameters near = p_.zones;
@@ -202,6 +212,7 @@ class BSwarmMotion final : public Motion<T> {
 
   BSwarmParameters p_;
   const KernelVariant* kernel_;  // null: scalar
+  VerletLists<T> lists_{kListSkin};
   ForcePasses<T> forces_;
   CorrelatedNoise<T> noise_;
   std::vector<RowSample> sample_;

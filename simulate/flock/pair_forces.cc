@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "simulate/core/check.h"
+#include "simulate/flock/listed_sums.h"
 #include "simulate/shapes/nearest.h"
 
 namespace flocklift {
@@ -74,9 +75,25 @@ void SumLists(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
             });
 }
 
+// fn(lists, first, last) for all animals whose neighbours are listed.
+template <typename T, typename Function>
+void ForEachList(const PairTask<T>& task, ThreadPool* pool, const Function& fn) {
+  pool->For(0, static_cast<std::int64_t>(task.bodies.size()), kListGrain,
+            [&](std::int64_t first, std::int64_t last) {
+              fn(task.lists->chunk(static_cast<std::size_t>(first / kListGrain)),
+                 static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last));
+            });
+}
+
 template <typename T, typename Rules>
 void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
   if (task.nearest != nullptr) return SumLists(rules, task, pool);
+  if (task.lists != nullptr) {
+    return ForEachList(task, pool,
+                       [&](const NearLists& lists, std::uint32_t first, std::uint32_t last) {
+                         SumListedScalar(rules, task.lists->rows(), task, lists, first, last);
+                       });
+  }
   const auto g = task.grid.view();
   pool->For(0, g.RowCount(), kRows, [&](std::int64_t first_row, std::int64_t last_row) {
     for (auto row = static_cast<int>(first_row); row < last_row; ++row) {
@@ -106,7 +123,16 @@ void SumScalar(const Rules& rules, const PairTask<T>& task, ThreadPool* pool) {
 
 template <typename Job>
 void SumWith(void (*kernel)(const Job&, std::uint32_t, std::uint32_t, std::uint32_t*),
-             const Job& job, std::size_t n, ThreadPool* pool) {
+             const Job& job, const PairTask<float>& task, ThreadPool* pool) {
+  const std::size_t n = task.bodies.size();
+  if (task.lists != nullptr) {
+    return ForEachList(
+        task, pool, [&](const NearLists& lists, std::uint32_t first, std::uint32_t last) {
+          Job listed = job;
+          listed.pairs.listed = {&task.lists->rows()[0].x, lists.begin.data(), lists.places.data()};
+          kernel(listed, first, last, nullptr);
+        });
+  }
   pool->For(0, static_cast<std::int64_t>(n), kPairGrain,
             [&](std::int64_t first, std::int64_t last) {
               thread_local std::vector<std::uint32_t> candidates;
@@ -133,10 +159,8 @@ PairJob MakeJob(const PairTask<float>& task, double reach) {
           .vz = s.vz.data(),
           .reach = F(kReachMargin * reach),
           .sample = task.sample == nullptr ? nullptr : task.sample->data(),
-          .ax = task.ax.data(),
-          .ay = task.ay.data(),
-          .az = task.az.data(),
-          .neighbours = task.neighbours.data()};
+          .listed = {},
+          .sums = SumsOf(task)};
 }
 
 }  // namespace
@@ -170,7 +194,7 @@ void SumPairs(const BoidsParameters<double>& given, const KernelVariant* kernel,
                          .cone = cone,
                          .view_cosine = F(cosine),
                          .view_taper = F(p.blind_taper)};
-      return SumWith(kernel->boids, job, task.bodies.size(), pool);
+      return SumWith(kernel->boids, job, task, pool);
     }
   }
   const auto t = [](double value) { return static_cast<T>(value); };
@@ -201,7 +225,7 @@ void SumPairs(const ZoneParameters& p, const KernelVariant* kernel, const PairTa
                          .w_ali = F(p.w_ali),
                          .w_att = F(p.w_att),
                          .taper = F(p.taper)};
-      return SumWith(kernel->zones, job, task.bodies.size(), pool);
+      return SumWith(kernel->zones, job, task, pool);
     }
   }
   if (p.taper > 0) {
@@ -226,7 +250,7 @@ void SumPairs(const SteerParameters& p, const KernelVariant* kernel, const PairT
                          .near = F(p.near),
                          .taper = F(p.taper),
                          .view_taper = F(p.view_taper)};
-      return SumWith(kernel->steer, job, task.bodies.size(), pool);
+      return SumWith(kernel->steer, job, task, pool);
     }
   }
   if (p.taper > 0 || p.view_taper > 0) {

@@ -5,7 +5,8 @@
 // the neighbours of every animal of a sorted swarm. Those are metric, all within reach, found with
 // the cell grid and summed by the SIMD kernels or, pair by pair, with the same terms on any scalar;
 // or topological, the nearest few of every animal whatever their distance (Ballerini et al. 2008).
-// The order of every sum depends on the state alone, so kernels and threads change no byte.
+// The order of every sum depends on the state alone, so kernels and threads change no byte. Metric
+// neighbours of boids and zones may be listed instead (simulate/flock/verlet_lists.h).
 //
 // Where nearly everybody is everybody's neighbour a sample caps the work: the animals of a row of
 // cells then have every stride-th of their candidates for neighbours, in the order of the sort, so
@@ -25,6 +26,7 @@
 #include "simulate/flock/herd.h"
 #include "simulate/flock/kernels/kernels.h"
 #include "simulate/flock/steer_pairs.h"
+#include "simulate/flock/verlet_lists.h"
 #include "simulate/flock/zone_pairs.h"
 
 namespace flocklift {
@@ -46,6 +48,7 @@ struct PairTask {
   std::vector<T>& neighbours;                      // how many, by weight, written
   const std::vector<RowSample>* sample = nullptr;  // of each row of cells; null: everybody
   const NeighbourLists* nearest = nullptr;         // topological neighbours; null: metric ones
+  const VerletLists<T>* lists = nullptr;           // of the metric ones; null: by the grid
 };
 template <typename T>
 PairTask<T> TaskOf(Herd<T>* herd) {
@@ -54,8 +57,9 @@ PairTask<T> TaskOf(Herd<T>* herd) {
 
 // The accelerations that neighbours cause; boids with seconds for time units. For SteerParameters
 // the bodies' velocities must be headings, of length 1. The grid must be sorted by Reach(p) at
-// least. A null kernel, or a scalar that is not float, goes pair by pair. Of topological neighbours
-// all are in the sight of boids (d_v does not count); other radii stay what they are.
+// least, or there are lists of at least that reach. A null kernel, or a scalar that is not float,
+// goes pair by pair. Of topological neighbours all are in the sight of boids (d_v does not count);
+// other radii stay what they are.
 template <typename T>
 void SumPairs(const BoidsParameters<double>& p, const KernelVariant* kernel,
               const PairTask<T>& task, ThreadPool* pool);

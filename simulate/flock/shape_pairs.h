@@ -55,6 +55,7 @@ struct ShapePairs {
     T Neighbours() const { return repel.weight + align.weight + attract.weight; }
   };
 
+  const ShapePairs& For(const Vec3<T>& /*v*/) const { return *this; }
   void Add(const Vec3<T>& dx, const Vec3<T>& dv, Sums* sums) const {
     using std::abs;
     const T squared = Dot(dx, dx), manhattan = abs(dx.x) + abs(dx.y) + abs(dx.z);

@@ -7,30 +7,10 @@
 #include <type_traits>
 
 #include "simulate/core/check.h"
+#include "simulate/flock/listed_sums.h"
 
 namespace flocklift {
 namespace {
-
-// The animals first .. last - 1, whose lists they are.
-template <typename T>
-void SumScalar(const ShapePairs<T>& rules, const std::vector<BodyRow<T>>& rows,
-               const PairTask<T>& task, const NearLists& lists, std::uint32_t first,
-               std::uint32_t last) {
-  for (std::uint32_t k = first; k < last; ++k) {
-    const Vec3<T> x = rows[k].Position(), v = rows[k].Velocity();
-    const std::uint32_t eight = (k - first) / 8, lane = (k - first) % 8;
-    typename ShapePairs<T>::Sums sums;
-    for (std::size_t n = lists.begin[eight]; n < lists.begin[eight + 1]; ++n) {
-      const BodyRow<T>& other = rows[lists.places[8 * n + lane]];
-      rules.Add(other.Position() - x, other.Velocity() - v, &sums);
-    }
-    const Vec3<T> acceleration = rules.Finish(sums);
-    task.ax[k] = acceleration.x;
-    task.ay[k] = acceleration.y;
-    task.az[k] = acceleration.z;
-    task.neighbours[k] = sums.Neighbours();
-  }
-}
 
 float F(double value) { return static_cast<float>(value); }
 
@@ -40,9 +20,7 @@ void SumListed(const ShapePairNumbers& n, const KernelVariant* kernel, const Pai
                std::uint32_t last) {
   if constexpr (std::is_same_v<T, float>) {
     if (kernel != nullptr) {
-      const ShapeJob job{.rows = &rows[0].x,
-                         .begin = lists.begin.data(),
-                         .places = lists.places.data(),
+      const ShapeJob job{.listed = {&rows[0].x, lists.begin.data(), lists.places.data()},
                          .r_rep = F(n.r_rep),
                          .r_ali = F(n.r_ali),
                          .r_att = F(n.r_att),
@@ -52,14 +30,11 @@ void SumListed(const ShapePairNumbers& n, const KernelVariant* kernel, const Pai
                          .w_con = F(n.w_con),
                          .reach = F(n.reach),
                          .sigma = F(n.sigma),
-                         .ax = task.ax.data(),
-                         .ay = task.ay.data(),
-                         .az = task.az.data(),
-                         .neighbours = task.neighbours.data()};
+                         .sums = SumsOf(task)};
       return kernel->shape(job, first, last);
     }
   }
-  SumScalar(MakeShapePairs<T>(n), rows, task, lists, first, last);
+  SumListedScalar(MakeShapePairs<T>(n), rows, task, lists, first, last);
 }
 
 }  // namespace
@@ -68,14 +43,14 @@ template <typename T>
 void SumPairs(const ShapePairNumbers& n, const KernelVariant* kernel, const PairTask<T>& task,
               const VerletLists<T>* kept, ThreadPool* pool, std::vector<BodyRow<T>>* rows) {
   FLOCKLIFT_DCHECK(task.sample == nullptr && task.nearest == nullptr);
-  FillRows(task.bodies, pool, rows);
+  if (kept == nullptr) FillRows(task.bodies, pool, rows);
   pool->For(0, static_cast<std::int64_t>(task.bodies.size()), kListGrain,
             [&](std::int64_t begin, std::int64_t end) {
               const auto first = static_cast<std::uint32_t>(begin);
               const auto last = static_cast<std::uint32_t>(end);
               if (kept != nullptr) {
                 const NearLists& lists = kept->chunk(static_cast<std::size_t>(begin / kListGrain));
-                SumListed(n, kernel, task, *rows, lists, first, last);
+                SumListed(n, kernel, task, kept->rows(), lists, first, last);
                 return;
               }
               thread_local NearLists lists;

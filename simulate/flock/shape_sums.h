@@ -26,8 +26,8 @@ NearReach<T> ReachOf(const ShapePairNumbers& n) {
   return {static_cast<T>(std::max({n.r_rep, n.r_ali, n.r_att})), static_cast<T>(n.reach)};
 }
 
-// The accelerations that neighbours cause. `rows` is room that may be used again. Without kept
-// lists the task's grid must be sorted by Reach(n) at least; there is no sample.
+// The accelerations that neighbours cause. Without kept lists the task's grid must be sorted by
+// Reach(n) at least, and `rows` is room that may be used again; there is no sample.
 template <typename T>
 void SumPairs(const ShapePairNumbers& n, const KernelVariant* kernel, const PairTask<T>& task,
               const VerletLists<T>* kept, ThreadPool* pool, std::vector<BodyRow<T>>* rows);

@@ -5,6 +5,9 @@
 // hold everybody who is within reach or a skin beyond. Two animals come nearer by no more than both
 // have moved; so a list is complete as long as twice the farthest move is less than the skin. What
 // all have moved together does not count: moves are taken from the middle of all moves.
+//
+// They pay where they last: what a step then costs is the pairs within reach and little more, while
+// a grid that is sorted anew offers several times as many.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_VERLET_LISTS_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_VERLET_LISTS_H_
@@ -20,6 +23,9 @@
 
 namespace flocklift {
 
+// For UpdateIfWorth: wider lists last longer and hold more.
+inline constexpr double kListSkin = 0.12;
+
 template <typename T>
 class VerletLists {
  public:
@@ -30,16 +36,24 @@ class VerletLists {
   // brought into a new order.
   void Update(const NearReach<T>& reach, const KernelVariant* kernel, ThreadPool* pool,
               Herd<T>* herd);
+  // The same, but new lists are made only where they should last for several steps of `dt` [s], at
+  // the velocities of now, and are not long. Otherwise there are none, and the herd's order is any.
+  bool UpdateIfWorth(const NearReach<T>& reach, double dt, const KernelVariant* kernel,
+                     ThreadPool* pool, Herd<T>* herd);
 
   // Of the animals from kListGrain * chunk on.
   const NearLists& chunk(std::size_t chunk) const { return chunks_[chunk]; }
+  // The animals at the last update, in the herd's order.
+  const std::vector<BodyRow<T>>& rows() const { return rows_; }
 
   // The lists depend on where the animals were when they were made.
   void Save(StateWriter* out) const;
   void Load(StateReader* in);
 
  private:
-  bool Hold(const NearReach<T>& reach, const Bodies<T>& now) const;
+  bool Hold(const NearReach<T>& reach, const KernelVariant* kernel, ThreadPool* pool,
+            const Bodies<T>& now);
+  void Renew(const NearReach<T>& reach, ThreadPool* pool, Herd<T>* herd);
   void Make(const KernelVariant* kernel, ThreadPool* pool, const CellGrid<T>& grid,
             const Bodies<T>& bodies);
 
@@ -48,6 +62,7 @@ class VerletLists {
   std::vector<T> x_, y_, z_;           // where the animals were then, in the herd's order [m]
   bool loaded_ = false;                // all but the lists themselves
   std::vector<NearLists> chunks_;
+  std::vector<BodyRow<T>> rows_;
 };
 
 extern template class VerletLists<float>;

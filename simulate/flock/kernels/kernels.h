@@ -7,9 +7,9 @@
 // the touching rows that are within reach of the tile's bounding box, one after the other for all
 // lanes. So every animal sums its neighbours in the order of the sort, whatever the width of a
 // pack, and nothing is contracted into fused operations that round otherwise: all variants give the
-// same bytes. So does the kernel of the shape, whose neighbours are listed; that of zones (with
-// hard edges and no sample) takes animals one after the other, lanes holding the neighbours, in
-// eight sums whatever the width of a pack.
+// same bytes. So do listed neighbours, each lane taking those of its own animal's list. Zones by
+// the grid (with hard edges and no sample) are taken animal by animal, lanes holding the
+// neighbours, in eight sums whatever the width of a pack.
 //
 // The variants are compiled with flags of their own. Hence this interface of plain pointers, and
 // no inline function or template that another file could share: the linker keeps only one of each.
@@ -28,6 +28,18 @@ struct RowSample {
   std::uint32_t stride, phase;  // stride 1: all
 };
 
+// Lists of neighbours (simulate/flock/near_lists.h) of the animals that are asked for.
+struct ListedPairs {
+  const float* rows;           // BodyRow
+  const std::uint32_t* begin;  // of the lists
+  const std::uint32_t* places;
+};
+
+// Where sums go: accelerations [m/s^2], and how many neighbours there are, by weight.
+struct PairSums {
+  float *ax, *ay, *az, *neighbours;
+};
+
 // What every pair kernel reads and writes. Arrays are those of Bodies<float>, sorted and padded;
 // the grid is CellGrid<float>::View.
 struct PairJob {
@@ -37,8 +49,8 @@ struct PairJob {
   const float *x, *y, *z, *vx, *vy, *vz;
   float reach;
   const RowSample* sample;  // of each row; null: everybody
-  float *ax, *ay, *az;      // [m/s^2], written
-  float* neighbours;        // their weight, written
+  ListedPairs listed;       // instead of all that; null: by the grid
+  PairSums sums;
 };
 
 // The rules' numbers, as MakeBoidsPairs, MakeZonePairs and MakeSteerPairs name them.
@@ -67,13 +79,11 @@ struct ListJob {
   std::uint32_t* places;
   std::size_t room;  // of places
 };
-struct ShapeJob {              // ShapePairNumbers
-  const float* rows;           // BodyRow
-  const std::uint32_t* begin;  // of the lists of the animals that are asked for
-  const std::uint32_t* places;
+struct ShapeJob {  // ShapePairNumbers
+  ListedPairs listed;
   float r_rep, r_ali, r_att, w_rep, w_ali, w_att;
   float w_con, reach, sigma;
-  float *ax, *ay, *az, *neighbours;  // as of PairJob
+  PairSums sums;
 };
 struct SteerJob {  // the velocities are headings
   PairJob pairs;

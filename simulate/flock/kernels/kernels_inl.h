@@ -9,14 +9,27 @@
 #include "simulate/flock/boids.h"
 #include "simulate/flock/integrator.h"
 #include "simulate/flock/kernels/list_kernel_inl.h"
+#include "simulate/flock/kernels/listed_kernel_inl.h"
 #include "simulate/flock/kernels/pair_kernel_inl.h"
-#include "simulate/flock/kernels/shape_kernel_inl.h"
 #include "simulate/flock/kernels/zones_kernel_inl.h"
+#include "simulate/flock/shape_pairs.h"
 #include "simulate/flock/steer_pairs.h"
 #include "simulate/flock/zone_pairs.h"
 
 namespace flocklift {
 namespace {
+
+// By the lists where there are any.
+template <typename Pack, typename Rules, typename Taper>
+[[gnu::always_inline]] inline void Sum(const PairJob& job, const Rules& rules, Taper taper,
+                                       std::uint32_t first, std::uint32_t last,
+                                       std::uint32_t* room) {
+  if (job.listed.rows != nullptr) {
+    SumListed<Pack>(job.listed, job.sums, rules, taper, first, last);
+  } else {
+    SumPairs<Pack>(job, rules, taper, first, last, room);
+  }
+}
 
 template <typename Pack>
 struct Kernels {
@@ -29,7 +42,7 @@ struct Kernels {
                                                 {Pack(job.alpha_c), Pack(job.d_v), taper},
                                                 {Pack(job.alpha_a), Pack(job.d_v), taper},
                                                 view};
-      SumPairs<Pack>(job.pairs, rules, taper, first, last, room);
+      Sum<Pack>(job.pairs, rules, taper, first, last, room);
     };
     const Pack cosine(job.view_cosine), taper(job.taper);
     if (job.taper > 0 || (job.cone && job.view_taper > 0)) {
@@ -48,11 +61,12 @@ struct Kernels {
   [[gnu::flatten]] static void Zones(const ZonesJob& job, std::uint32_t first, std::uint32_t last,
                                      std::uint32_t* room) {
     const auto run = [&](auto taper) {
-      SumPairs<Pack>(job.pairs, ZoneRules<Pack>(job, taper), taper, first, last, room);
+      Sum<Pack>(job.pairs, ZoneRules<Pack>(job, taper), taper, first, last, room);
     };
     if (job.taper > 0) {
       run(Pack(job.taper));
-    } else if (ZonePairs<Pack, HardEdge>::ByAnimal(job.pairs.sample != nullptr)) {
+    } else if (job.pairs.listed.rows == nullptr &&
+               ZonePairs<Pack, HardEdge>::ByAnimal(job.pairs.sample != nullptr)) {
       SumZonesByAnimal<Pack>(job, first, last);
     } else {
       run(HardEdge{});
@@ -72,7 +86,7 @@ struct Kernels {
                                  zone(job.w_ali),
                                  zone(job.w_att),
                                  {Pack(job.w_con), Pack(job.reach), Pack(job.sigma), HardEdge{}}};
-    SumListedShapes<Pack>(job, rules, first, last);
+    SumListed<Pack>(job.listed, job.sums, rules, HardEdge{}, first, last);
   }
 
   [[gnu::flatten]] static void Steer(const SteerJob& job, std::uint32_t first, std::uint32_t last,

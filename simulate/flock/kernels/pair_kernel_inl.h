@@ -202,10 +202,10 @@ template <typename Pack, typename Rules, typename Taper>
     sums.Each(pair(candidates.list[q]), add);
   }
   const Vec3<Pack> acceleration = own.Finish(sums);
-  Store(acceleration.x, tile, job.ax);
-  Store(acceleration.y, tile, job.ay);
-  Store(acceleration.z, tile, job.az);
-  Store(sums.Neighbours(), tile, job.neighbours);
+  Store(acceleration.x, tile, job.sums.ax);
+  Store(acceleration.y, tile, job.sums.ay);
+  Store(acceleration.z, tile, job.sums.az);
+  Store(sums.Neighbours(), tile, job.sums.neighbours);
 }
 
 // Calls fn(tile) for all tiles of the animals first .. last - 1, row after row.

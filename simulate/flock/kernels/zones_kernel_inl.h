@@ -257,10 +257,10 @@ class ZonesTile {
     };
     const typename Rules::Sums sums{sum(kRepulsion, 0), sum(kAlignment, 1), sum(kAttraction, 2)};
     const Vec3<Pack> acceleration = rules_.Finish(sums);
-    Store(acceleration.x, tile_, job_.ax);
-    Store(acceleration.y, tile_, job_.ay);
-    Store(acceleration.z, tile_, job_.az);
-    Store(sums.Neighbours(), tile_, job_.neighbours);
+    Store(acceleration.x, tile_, job_.sums.ax);
+    Store(acceleration.y, tile_, job_.sums.ay);
+    Store(acceleration.z, tile_, job_.sums.az);
+    Store(sums.Neighbours(), tile_, job_.sums.neighbours);
   }
 
   const PairJob& job_;

@@ -135,6 +135,43 @@ TEST(VerletLists, DoNotHoldForPlacesThatAreNoNumbers) {
   }
 }
 
+// 60 neighbours; 8 steps at the farthest velocity from the middle of all use up the skin.
+TEST(VerletLists, AreMadeWhereTheyAreWorthIt) {
+  ThreadPool pool(1);
+  const NearReach<float> reach{1, 0};
+  const double skin = 0.16, dt = 0.1;
+  const auto worth = [&](double speed, double edge) {
+    NamedFlock flock = RandomFlock("", 1000, {edge, edge, edge}, 36);
+    for (Vec3d& v : flock.velocity) v = {30, 0, 0};  // all together
+    flock.velocity[7].y = speed;
+    flock.velocity[8].y = -speed;
+    Herd<float> herd = HerdOf<float>(flock);
+    VerletLists<float> lists(skin);
+    const bool made = lists.UpdateIfWorth(reach, dt, nullptr, &pool, &herd);
+    if (made) {
+      const Pairs listed = Listed(lists, herd);
+      for (const auto& pair : BruteForce(herd.now, reach)) EXPECT_TRUE(listed.contains(pair));
+    }
+    return made;
+  };
+  EXPECT_TRUE(worth(0.09, 4));
+  EXPECT_FALSE(worth(0.11, 4));
+  EXPECT_FALSE(worth(0.09, 2));  // 500 neighbours
+}
+
+// What is left of older lists must not count once the herd has gone on without.
+TEST(VerletLists, AreForgottenWhereTheyAreNotWorthIt) {
+  ThreadPool pool(1);
+  const NearReach<double> reach{1, 0};
+  Herd<double> herd = HerdOf<double>(RandomFlock("", 300, {5, 5, 5}, 37));
+  VerletLists<double> lists(0.2);
+  EXPECT_TRUE(lists.UpdateIfWorth(reach, 1e-9, nullptr, &pool, &herd));
+  herd.now.x[0] += 1;
+  EXPECT_FALSE(lists.UpdateIfWorth(reach, 1e9, nullptr, &pool, &herd));
+  herd.now.x[0] -= 1;
+  EXPECT_FALSE(lists.UpdateIfWorth(reach, 1e9, nullptr, &pool, &herd));
+}
+
 TEST(VerletLists, AreTheSameAfterTheyWereSaved) {
   const NamedFlock flock = RandomFlock("", 700, {6, 6, 6}, 34);
   ThreadPool pool(1);

@@ -65,6 +65,32 @@ void Sum(benchmark::State& state, const std::string& kernel, const Parameters& p
   PerAgent(state, neighbours / static_cast<double>(n));
 }
 
+// From lists that were made before, as those of a flock that moves little; the rows of the animals
+// are filled and looked through for moves each time.
+template <typename Parameters>
+void SumKept(benchmark::State& state, const std::string& kernel, const Parameters& p) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  Herd<float> herd;
+  herd.now = UniformCube(n);
+  for (std::vector<float>* column : {&herd.ax, &herd.ay, &herd.az, &herd.neighbours}) {
+    column->resize(n + Bodies<float>::kPadding);
+  }
+  ThreadPool pool(1);
+  VerletLists<float> lists(kListSkin);
+  const NearReach<float> reach{static_cast<float>(Reach(p)), 0};
+  const KernelVariant* const chosen = ChooseKernel(kernel);
+  lists.Update(reach, chosen, &pool, &herd);
+  PairTask<float> task = TaskOf(&herd);
+  task.lists = &lists;
+  for (auto _ : state) {
+    lists.Update(reach, chosen, &pool, &herd);
+    SumPairs<float>(p, chosen, task, &pool);
+  }
+  double neighbours = 0;
+  for (std::size_t k = 0; k < n; ++k) neighbours += static_cast<double>(herd.neighbours[k]);
+  PerAgent(state, neighbours / static_cast<double>(n));
+}
+
 void Sort(benchmark::State& state) {
   CellGrid<float> grid;
   Bodies<float> now = UniformCube(static_cast<std::size_t>(state.range(0))), sorted;
@@ -123,6 +149,11 @@ void RegisterAll() {
     sum("boids_blind", blind, 0);
     sum("zones", zones, 0);
     sum("opensteer", steer, 0);
+    const auto kept = [&](const std::string& name, const auto& p) {
+      add(name + "_kept/" + kernel, [=](benchmark::State& state) { SumKept(state, kernel, p); });
+    };
+    kept("boids", boids);
+    kept("zones", zones);
     if (kernel != "scalar") sum("zones_capped", wide, 32);
   }
   add("sort", Sort);
