@@ -96,7 +96,7 @@ class CoupledFlock {
     // What it hears ends here in near_ and far_: those with a derivative each by their (x, v), and
     // those that have one in common, as all have that are well within the rules' edges.
     std::size_t near_end = 0, far_end = 0;
-    Matrix36 by_far = Matrix36::Zero();
+    ByOffset by_far;
   };
   template <int Count>
   using Errors = std::vector<Eigen::Matrix<double, 3, Count>>;  // of every line
@@ -146,7 +146,7 @@ class CoupledFlock {
   std::optional<double> common_log_depth_;          // mean of the reference depths, held
   std::vector<Line> lines_;
   std::vector<std::size_t> near_, far_;  // lines that every line hears
-  std::vector<Matrix36> by_near_;        // of its error, by (x, v) of each that is near
+  std::vector<ByOffset> by_near_;        // of its error, by (x, v) of each that is near
   std::vector<ArrowSystem> animals_;     // each as if the others stood still
   Eigen::MatrixXd priors_;               // of the border
   Eigen::VectorXd gradient_, diagonal_;

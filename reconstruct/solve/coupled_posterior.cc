@@ -19,7 +19,7 @@ namespace flocklift::internal {
 namespace {
 
 // Draws need not be more exact than their number makes variances.
-constexpr GradientStop kDrawStop{.share = 1e-4, .most = 200};
+constexpr GradientStop kDrawStop{.share = 1e-3, .most = 200};
 constexpr std::uint64_t kNoiseSeed = 1, kDepthSeed = 2;
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }

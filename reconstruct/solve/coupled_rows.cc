@@ -30,7 +30,7 @@ void CoupledFlock::LinearizeLine(std::size_t bird, int knot, const std::vector<K
   Line& line = lines_[at];
   Heard heard;
   Hear(at, reach, states, &heard);
-  std::vector<Matrix36> by(heard.lines.size());
+  std::vector<ByOffset> by(heard.lines.size());
   PairUnknownsMatrix by_pair;
   SelfDerivatives self;
   const Knot& s = states[at];
@@ -39,8 +39,11 @@ void CoupledFlock::LinearizeLine(std::size_t bird, int knot, const std::vector<K
   const double factor = birds_[bird].reference_depth / s.z;
   line.error = factor * (s.a - force);
   Matrix36 by_own = self.by_state;
-  for (const Matrix36& b : by) by_own -= b;
-  const Matrix36* common = nullptr;
+  ByOffset all;
+  for (const ByOffset& b : by) all += b;
+  by_own.leftCols<3>() -= all.x;
+  by_own.rightCols<3>().diagonal().array() -= all.v;
+  const ByOffset* common = nullptr;
   for (std::size_t n = 0; n < by.size(); ++n) {
     for (std::size_t m = 0; m < n && common == nullptr; ++m) {
       if (by[n] == by[m]) common = &by[m];

@@ -14,6 +14,19 @@ namespace {
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
+// What the force says of neighbours' (x, v), and of errors to them.
+template <int Count>
+Eigen::Matrix<double, 3, Count> Told(const ByOffset& by,
+                                     const Eigen::Matrix<double, 6, Count>& state) {
+  return by.x * state.template topRows<3>() + by.v * state.template bottomRows<3>();
+}
+template <int Count>
+void Tell(const ByOffset& by, const Eigen::Matrix<double, 3, Count>& error,
+          Eigen::Matrix<double, 6, Count>* state) {
+  state->template topRows<3>().noalias() += by.x.transpose() * error;
+  state->template bottomRows<3>() += by.v * error;
+}
+
 }  // namespace
 
 template <int Count>
@@ -53,8 +66,8 @@ void CoupledFlock::ChangesOf(const Columns<Count>& x, Errors<Count>* own,
     const Line& line = lines_[at];
     State all = State::Zero();
     for (; far < line.far_end; ++far) all += states[far_[far]];
-    Eigen::Matrix<double, 3, Count> sum = line.by_far * all;
-    for (; near < line.near_end; ++near) sum.noalias() += by_near_[near] * states[near_[near]];
+    Eigen::Matrix<double, 3, Count> sum = Told<Count>(line.by_far, all);
+    for (; near < line.near_end; ++near) sum += Told<Count>(by_near_[near], states[near_[near]]);
     (*heard)[at] = sum;
   }
 }
@@ -107,10 +120,11 @@ void CoupledFlock::PullHeard(const Errors<Count>& errors, Columns<Count>* y) con
   std::size_t near = 0, far = 0;
   for (std::size_t at = 0; at < lines_.size(); ++at) {
     const Line& line = lines_[at];
-    const State all = line.by_far.transpose() * errors[at];
+    State all = State::Zero();
+    Tell<Count>(line.by_far, errors[at], &all);
     for (; far < line.far_end; ++far) states[far_[far]] += all;
     for (; near < line.near_end; ++near) {
-      states[near_[near]].noalias() += by_near_[near].transpose() * errors[at];
+      Tell<Count>(by_near_[near], errors[at], &states[near_[near]]);
     }
   }
   for (std::size_t i = 0; i < birds_.size(); ++i) {

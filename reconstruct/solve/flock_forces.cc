@@ -18,6 +18,7 @@ namespace {
 
 using Jet4 = ceres::Jet<double, 4>;  // of a rule's sum: value and weight
 using Jet3 = ceres::Jet<double, 3>;  // of dx
+using JetE = ceres::Jet<double, 3>;  // of the edges: d_s, d_v, taper
 using JetP = ceres::Jet<double, kPairUnknowns>;
 using JetS = ceres::Jet<double, 6 + 1 + kSelfUnknowns + 3>;  // (x, v), log speed, unknowns, target
 
@@ -41,19 +42,20 @@ Vec3<Jet> Seeded(const Vec3d& v, int first) {
 // What a rule's sum is made of, with derivatives by each neighbour.
 struct RuleSum {
   Weighted<double> sum;
-  std::vector<Eigen::Matrix<double, 4, 6>> by;  // of (value, weight), one for each neighbour
+  std::vector<Eigen::Matrix<double, 4, 3>> by;  // of (value, weight) by each neighbour's dx
+  std::vector<double> by_dv;                    // of value by its dv, times the unit matrix
 
   // `velocities`: do these average dv, rather than something of dx?
   void Add(const Share<Jet3>& share, bool velocities) {
     const Vec3<Jet3> value = share.weight * share.value;
     sum.value += Vec3d{value.x.a, value.y.a, value.z.a};
     sum.weight += share.weight.a;
-    Eigen::Matrix<double, 4, 6>& d = by.emplace_back();
-    d.row(0) << value.x.v.transpose(), 0, 0, 0;
-    d.row(1) << value.y.v.transpose(), 0, 0, 0;
-    d.row(2) << value.z.v.transpose(), 0, 0, 0;
-    d.row(3) << share.weight.v.transpose(), 0, 0, 0;
-    if (velocities) d.topRightCorner<3, 3>().diagonal().setConstant(share.weight.a);
+    Eigen::Matrix<double, 4, 3>& d = by.emplace_back();
+    d.row(0) = value.x.v.transpose();
+    d.row(1) = value.y.v.transpose();
+    d.row(2) = value.z.v.transpose();
+    d.row(3) = share.weight.v.transpose();
+    if (velocities) by_dv.push_back(share.weight.a);
   }
   Weighted<Jet4> AsJets() const {
     Weighted<Jet4> jets;
@@ -62,14 +64,29 @@ struct RuleSum {
     return jets;
   }
   // Adds the rule's derivatives.
-  void Finish(const Vec3<Jet4>& force, Matrix36* derivatives) const {
+  void Finish(const Vec3<Jet4>& force, ByOffset* derivatives) const {
     Eigen::Matrix<double, 3, 4> by_sum;
     by_sum.row(0) = force.x.v.transpose();
     by_sum.row(1) = force.y.v.transpose();
     by_sum.row(2) = force.z.v.transpose();
-    for (std::size_t j = 0; j < by.size(); ++j) derivatives[j].noalias() += by_sum * by[j];
+    for (std::size_t j = 0; j < by.size(); ++j) derivatives[j].x.noalias() += by_sum * by[j];
+    // The force is a multiple of the mean value.
+    for (std::size_t j = 0; j < by_dv.size(); ++j) derivatives[j].v += by_sum(0, 0) * by_dv[j];
   }
 };
+
+// The same sum, with derivatives by all unknowns of neighbours' forces.
+Weighted<JetP> AllUnknowns(const Weighted<JetE>& sum) {
+  const auto wide = [](const JetE& x) {
+    JetP jet(x.a);
+    jet.v.head<3>() = x.v;
+    return jet;
+  };
+  Weighted<JetP> all;
+  all.value = {wide(sum.value.x), wide(sum.value.y), wide(sum.value.z)};
+  all.weight = wide(sum.weight);
+  return all;
+}
 
 template <typename T>
 struct SelfParameters {
@@ -136,7 +153,7 @@ Vec3d FlockForces::TargetAt(double time) const {
   return (1 - share.next) * Vec3d{at[0], at[1], at[2]} + share.next * Vec3d{at[3], at[4], at[5]};
 }
 
-Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, Matrix36* by_offsets,
+Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, ByOffset* by_offsets,
                 PairUnknownsMatrix* by_unknowns) {
   const auto value = [&forces](ForceUnknown k) { return forces[k]; };
   const auto plain = PairsOf<double>(value);
@@ -153,7 +170,7 @@ Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, Matr
       separation.Add(shares.separation, false);
       cohesion.Add(shares.cohesion, false);
       alignment.Add(shares.alignment, true);
-      by_offsets[j].setZero();
+      by_offsets[j] = {};
     }
     const auto rules = PairsOf<Jet4>([&](ForceUnknown k) { return Jet4(forces[k]); });
     separation.Finish(Separation::Finish(rules.separation, separation.AsJets()), by_offsets);
@@ -161,16 +178,24 @@ Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, Matr
     alignment.Finish(Alignment::Finish(rules.alignment, alignment.AsJets()), by_offsets);
   }
   if (by_unknowns != nullptr) {
-    const auto pairs = PairsOf<JetP>([&](ForceUnknown k) {
+    const auto unknown = [&forces](ForceUnknown k) {
       using std::exp;
       return exp(JetP(forces.unknowns[k], k));
+    };
+    // Sums depend on the edges alone; gains come last.
+    const auto pairs = PairsOf<JetE>([&](ForceUnknown k) {
+      JetE edge(forces[k]);
+      if (k <= kLogTaper) edge.v[k] = edge.a;
+      return edge;
     });
-    BoidsPairs<JetP>::Sums total;
+    BoidsPairs<JetE>::Sums total;
     const auto constant = [](const Vec3d& v) {
-      return Vec3<JetP>{JetP(v.x), JetP(v.y), JetP(v.z)};
+      return Vec3<JetE>{JetE(v.x), JetE(v.y), JetE(v.z)};
     };
     for (const Offset& o : offsets) total += pairs.Pair(constant(o.dx), constant(o.dv));
-    CopyDerivatives<kPairUnknowns>(pairs.Finish(total), 0, *by_unknowns);
+    const BoidsPairs<JetP>::Sums by_all{AllUnknowns(total.separation), AllUnknowns(total.cohesion),
+                                        AllUnknowns(total.alignment)};
+    CopyDerivatives<kPairUnknowns>(PairsOf<JetP>(unknown).Finish(by_all), 0, *by_unknowns);
   }
   return plain.Finish(sums);
 }

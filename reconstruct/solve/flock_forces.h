@@ -66,10 +66,26 @@ struct Offset {
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
+// Derivatives of a force by a neighbour's (dx, dv): [x, v I], for velocities are averaged.
+struct ByOffset {
+  Eigen::Matrix3d x = Eigen::Matrix3d::Zero();
+  double v = 0;
+
+  friend bool operator==(const ByOffset&, const ByOffset&) = default;
+  ByOffset& operator+=(const ByOffset& b) {
+    x += b.x;
+    v += b.v;
+    return *this;
+  }
+  friend ByOffset operator*(double factor, const ByOffset& b) {
+    return {factor * b.x, factor * b.v};
+  }
+};
+
 // The force of neighbours; where they are not null, its derivatives by each one's (dx, dv), and by
 // the first kPairUnknowns unknowns.
 using PairUnknownsMatrix = Eigen::Matrix<double, 3, kPairUnknowns>;
-Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, Matrix36* by_offsets,
+Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, ByOffset* by_offsets,
                 PairUnknownsMatrix* by_unknowns);
 
 // The rest, and its derivatives where they are wanted.
