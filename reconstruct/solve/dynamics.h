@@ -9,7 +9,8 @@
 // chance they count by it (Bayesian model averaging; Hoeting et al., 1999), and so far as they
 // leave depths less open than batch does: depths are w times those with forces plus 1 - w times
 // those of batch. What is hidden must last longer than an acceleration does, or smoothness alone
-// predicts it as well.
+// predicts it as well. Small flocks have few sightings to hide: there the test goes on with others
+// hidden, until all have been (cross-validation), from depths and forces as they are known by then.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
@@ -29,7 +30,7 @@ struct DynamicsOptions {
 template <typename Visitor>
 void Describe(Visitor& visit, DynamicsOptions& o) {
   visit("hidden", o.hidden, {.low = 0.01, .high = 0.5}, "",
-        "share of the sightings on which forces are tested");
+        "share of the sightings that are hidden at a time to test forces");
   visit("hidden-time", o.hidden_time, {.low = 0.05, .high = 10}, "s",
         "how long an animal is hidden in one piece");
   visit("noise-sd", o.noise_sd, {.low = 0.01, .high = 100}, "m/s^2",

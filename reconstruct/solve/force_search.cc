@@ -122,13 +122,23 @@ std::vector<double> Apart(const std::vector<Bird>& a, const std::vector<Bird>& b
   return apart;
 }
 
+CoupledFlock Settled(const BatchModel& model, FollowedFlock* flock) {
+  CoupledFlock coupled(model, &flock->birds, &flock->shared);
+  coupled.forces.unknowns = flock->forces;
+  coupled.noise = flock->noise;
+  coupled.Relinearize();
+  coupled.Minimize(kIterations);
+  flock->forces = coupled.forces.unknowns;
+  return coupled;
+}
+
 // Annealed starts: how far animals are drawn together. Without sizes the batch solution hardly
 // knows who is in front. A start takes longer the more neighbours there are, so that large flocks
 // have time for one.
 std::vector<double> AnnealedStarts(bool sizes, std::size_t animals) {
   constexpr std::size_t kFew = 30;
   if (animals > kFew) return {sizes ? 0.5 : 1};
-  return sizes ? std::vector<double>{0.5, 0} : std::vector<double>{0.5, 1};
+  return sizes ? std::vector<double>{0.5, 0, 0.25} : std::vector<double>{0.5, 1};
 }
 
 }  // namespace
@@ -148,14 +158,10 @@ FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine&
   return best;
 }
 
+void Settle(const BatchModel& model, FollowedFlock* flock) { Settled(model, flock); }
+
 CoupledFlock::DepthSds Polish(const BatchModel& model, FollowedFlock* flock) {
-  CoupledFlock coupled(model, &flock->birds, &flock->shared);
-  coupled.forces.unknowns = flock->forces;
-  coupled.noise = flock->noise;
-  coupled.Relinearize();
-  coupled.Minimize(kIterations);
-  flock->forces = coupled.forces.unknowns;
-  return coupled.Depths();
+  return Settled(model, flock).Depths();
 }
 
 }  // namespace flocklift::internal

@@ -32,7 +32,9 @@ struct FollowedFlock {
 
 FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine& window);
 
-// Goes on with what is known of forces and noise. Returns how sure depths are then.
+// Goes on with what is known of forces and noise.
+void Settle(const BatchModel& model, FollowedFlock* flock);
+// The same. Returns how sure depths are then.
 CoupledFlock::DepthSds Polish(const BatchModel& model, FollowedFlock* flock);
 
 }  // namespace flocklift::internal

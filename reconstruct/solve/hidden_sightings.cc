@@ -12,15 +12,16 @@
 namespace flocklift::internal {
 
 HiddenSightings::HiddenSightings(double share, double duration, double fps,
-                                 const Segments& segments)
+                                 const Segments& segments, int fold)
     : rest_(segments) {
-  const double period = duration / share;
   const int frames = std::max(1, static_cast<int>(std::lround(duration * fps)));
+  const int period = std::max(frames, static_cast<int>(std::lround(duration / share * fps)));
   for (std::size_t i = 0; i < segments.segments.size(); ++i) {
     const auto& all = segments.segments[i].sightings;
     auto& kept = rest_.segments[i].sightings;
     // Pieces begin at shifted multiples of the period; the first and the last sightings stay.
-    const double shift = period * std::fmod(0.25 + 0.618 * static_cast<double>(i), 1.0);
+    const double stagger = std::fmod(0.25 + 0.618 * static_cast<double>(i), 1.0);
+    const int shift = static_cast<int>(std::lround(stagger * period)) + fold * frames;
     std::vector<Sighting> rest;
     Piece piece{i, {}};
     const auto close = [&] {
@@ -28,10 +29,10 @@ HiddenSightings::HiddenSightings(double share, double duration, double fps,
       piece.sightings.clear();
     };
     for (std::size_t k = 0; k < all.size(); ++k) {
-      const double into = std::fmod(all[k].time + shift, period);
+      const int into = (static_cast<int>(std::lround(all[k].time * fps)) + shift) % period;
       const bool inside = all[k].time - all.front().time > 0.5 * duration &&
                           all.back().time - all[k].time > 0.5 * duration;
-      const bool hide = into * fps < frames - 0.5 && inside;
+      const bool hide = into < frames && inside;
       if (hide) {
         piece.sightings.push_back(all[k]);
       } else {

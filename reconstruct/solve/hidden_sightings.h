@@ -17,11 +17,13 @@ namespace flocklift::internal {
 class HiddenSightings {
  public:
   // Hides about `share` of every long enough segment in pieces of `duration` [s], evenly spread and
-  // staggered from segment to segment.
-  HiddenSightings(double share, double duration, double fps, const Segments& segments);
+  // staggered from segment to segment; other pieces for every `fold`, of which there are 1 / share.
+  HiddenSightings(double share, double duration, double fps, const Segments& segments,
+                  int fold = 0);
 
   const Segments& rest() const { return rest_; }  // the segments without what is hidden
   long count() const { return count_; }
+  std::size_t pieces() const { return pieces_.size(); }
 
   // Of every piece: the mean error of the image positions that the paths predict, in their sds.
   // Far errors count little more than near ones: square roots are averaged.
