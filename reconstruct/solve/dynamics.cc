@@ -20,7 +20,7 @@ namespace {
 using namespace internal;  // NOLINT: the method's own parts
 
 constexpr double kMoreThanChance = 0.6;  // probability from which on forces count
-constexpr double kUnsure = 1.2;  // errors over what the linearised posterior says, as measured
+constexpr double kUnsure = 1.4;  // errors over what the linearised posterior says, as measured
 
 // Where the common scale drifts while forces are found, it is not because forces know it: it stays
 // that of the batch solution.
