@@ -181,6 +181,57 @@ for (const key of ['[', 'ArrowUp']) {
 }
 say('the keyboard does it too');
 
+// A pin and an added animal, placed by keys alone: the crosshair starts at the chosen animal.
+await goTo(page, 40);
+await press('Tab');
+const chosen = (await state()).selected;
+const [startX, startY] = await at(chosen);
+const corrections = () => (existsSync(join(scratch, 'corrections.txt')) ?
+  readFileSync(join(scratch, 'corrections.txt'), 'utf8') : '');
+const inPicture = (x, y) => page.evaluate(([u, v]) =>
+  window.flocklift.footage.toPicture({ clientX: u, clientY: v }), [x, y]);
+await press('p');
+assert.equal(await page.locator('.film .crosshair').count(), 1);
+for (const key of ['ArrowRight', 'Shift+ArrowDown', 'Shift+ArrowDown']) await press(key);
+assert.equal((await state()).frame, 40, 'the arrows are the crosshair\'s');
+await press('Enter');
+await until('the pin', async () => corrections() !== '');
+const [, id, frame, x, y] = corrections().match(/^pin (\d+) (\d+) (\S+) (\S+)\n$/);
+const wanted = await inPicture(startX + 12, startY + 2);
+assert.deepEqual([id, frame], [await page.evaluate((a) => window.flocklift.run.animals[a], chosen), '40']);
+assert.ok(Math.hypot(x - wanted[0], y - wanted[1]) < 0.02, `${x} ${y}, not ${wanted}`);
+assert.equal(await page.locator('.crosshair').count(), 0);
+await press('z');
+await until('the undo', async () => corrections() === '');
+await press('a');
+for (let k = 0; k < 4; k++) await press('ArrowUp');
+await press('Escape');
+assert.equal(await page.locator('.crosshair').count(), 0);
+await press('a'); // not the end of it: it was given up
+await press('Enter');
+await until('the animal', async () => /^add 40 \S+ \S+\n$/.test(corrections()));
+await press('z');
+await until('the undo', async () => corrections() === '');
+// It selects and draws as the mouse does.
+await press('k');
+assert.equal(await page.locator('.film .crosshair').count(), 1);
+await press('k');
+assert.equal(await page.locator('.flight .crosshair').count(), 1);
+await press('k');
+assert.equal(await page.locator('.crosshair').count(), 0);
+await press('F4');
+await press('k');
+await press('v');
+for (let k = 0; k < 4; k++) await press('ArrowLeft');
+await press('v');
+await until('a stroke', () => page.getByText('find depth of 1 strokes').isVisible());
+await page.getByText('clear').click();
+await press('Escape');
+await press('?');
+assert.ok((await page.locator('.help').innerText()).includes('Crosshair'));
+await press('Escape');
+say('a crosshair does what the mouse does');
+
 // Strokes become tracks, and a flock.
 await press('F4');
 const film = await page.locator('.film canvas').boundingBox();

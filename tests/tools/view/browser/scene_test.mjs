@@ -75,6 +75,20 @@ await until('the flock comes', async () => meanDistance(await look()) < 0.65 * f
 await until('its curve', async () => (await curves()).some((words) => words.includes('goal')));
 console.log('ok: a click attracts the flock');
 
+// So does the crosshair, by keys.
+const goalNow = async () => (await look()).goals.join();
+const there = await goalNow();
+await page.keyboard.press('k');
+assert.equal(await page.locator('.flight .crosshair').count(), 1);
+for (let k = 0; k < 6; k++) await page.keyboard.press('ArrowLeft');
+await until('another goal', async () => {
+  await page.keyboard.press('Enter');
+  return (await goalNow()) !== there && (await look()).goals.length === 3;
+});
+await page.keyboard.press('Escape');
+assert.equal(await page.locator('.crosshair').count(), 0);
+console.log('ok: the crosshair attracts it too');
+
 // A drag moves the goal, another the predator.
 const dragFrom = async (place, dx, dy) => {
   const p = await page.evaluate((at) => window.flocklift.swarm.space.onCanvas(...at), place);

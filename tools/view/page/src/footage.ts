@@ -25,7 +25,7 @@ export class FootageView {
   onStroke: ((stroke: Stroke) => void) | null = null;
 
   constructor(
-    private canvas: HTMLCanvasElement,
+    readonly canvas: HTMLCanvasElement,
     private run: Run,
   ) {
     this.pictures = new Pictures(run);
@@ -186,7 +186,7 @@ export class FootageView {
   }
 
   private down(event: PointerEvent): void {
-    this.canvas.setPointerCapture(event.pointerId);
+    if (event.isTrusted) this.canvas.setPointerCapture(event.pointerId); // the crosshair is none
     const startX = event.clientX;
     const startY = event.clientY;
     const { panX, panY } = this;

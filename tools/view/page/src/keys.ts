@@ -8,7 +8,8 @@ export interface Key {
   shown: string;
   text: string;
   group: string;
-  act: () => void;
+  act: (name: string) => void; // with that of `keys` which was pressed
+  when?: () => boolean; // else it is left to those behind it
 }
 
 export function nameOf(event: KeyboardEvent): string {
@@ -25,13 +26,13 @@ export function listenToKeys(keys: Key[]): void {
     const target = event.target as HTMLElement;
     const types = target.matches('input:not([type=range]):not([type=checkbox]), textarea, select');
     const name = nameOf(event);
-    // Within a panel it goes to the next slider, as everywhere.
-    if (name.endsWith('Tab') && !target.matches('body, canvas')) return;
+    // Within a panel they go to the next slider and press a button, as everywhere.
+    if (/(Tab|Enter)$/.test(name) && !target.matches('body, canvas')) return;
     if (event.altKey || types && !/^(F\d+|Escape)$/.test(name)) return;
-    const key = keys.find((k) => k.keys.includes(name));
+    const key = keys.find((k) => k.keys.includes(name) && (!k.when || k.when()));
     if (!key) return;
     event.preventDefault();
     if (target.matches('button, input, summary')) target.blur();
-    key.act();
+    key.act(name);
   }, { capture: true });
 }

@@ -49,7 +49,7 @@ export function MendPanel({ run, mending }: { run: Run; mending: Mending }) {
         <button disabled={edits.lines.length === 0} onClick={() => void mending.undo()}>undo <kbd>z</kbd></button>
         <button disabled={edits.redo === 0} onClick={() => void mending.redo()}>redo <kbd>y</kbd></button>
       </div>
-      {tool !== 'none' && <p class="hint">Click the place in the footage.</p>}
+      {tool !== 'none' && <p class="hint">Click the place in the footage, or bring the crosshair there (<kbd>k</kbd>, arrows, <kbd>Enter</kbd>).</p>}
       <section class="suspects">
         <header>
           <h3>{suspects.length} to look at</h3>

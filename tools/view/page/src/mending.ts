@@ -75,9 +75,12 @@ export class Mending {
     this.run.store.set({ selected: -1, second: -1 });
   }
   choose(tool: Tool): void {
-    if (tool === 'pin' && !this.need(1, 'Pin: click an animal first.')) return;
+    if (tool === 'pin' && this.tool !== tool && !this.need(1, 'Pin: click an animal first.')) return;
     this.tool = this.tool === tool ? 'none' : tool;
     this.run.setEdits(this.run.edits);
+  }
+  drop(): void {
+    if (this.tool !== 'none') this.choose(this.tool);
   }
   // A click on the footage while a tool is chosen; false when there is none.
   click(x: number, y: number): boolean {

@@ -7,12 +7,13 @@
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 
 import { Charts } from './charts';
+import { Crosshair } from './crosshair';
 import { FlightView } from './flight';
 import { FootageView } from './footage';
 import { Help } from './help';
 import { listenToKeys, type Key } from './keys';
 import { LookPanel } from './lookPanel';
-import { Mending } from './mending';
+import { Mending, type Tool } from './mending';
 import { MendPanel } from './mendPanel';
 import { Notices } from './notices';
 import type { Run } from './run';
@@ -39,7 +40,13 @@ const MOUSE: [string, string][] = [
   ['double click', 'the whole footage again'],
 ];
 
-function keysOf(run: Run, mending: Mending, flight: () => FlightView | null): Key[] {
+// The page's pictures, once they are there.
+interface Views {
+  footage: FootageView | null;
+  flight: FlightView | null;
+}
+
+function keysOf(run: Run, mending: Mending, crosshair: Crosshair, views: Views): Key[] {
   const { store, clock } = run;
   const flip = (name: 'boxes' | 'ids' | 'bars' | 'grid' | 'solo' | 'loop' | 'panel' | 'help') => () =>
     store.set({ [name]: !store.get()[name] });
@@ -56,9 +63,17 @@ function keysOf(run: Run, mending: Mending, flight: () => FlightView | null): Ke
     const { selected, hidden } = store.get();
     if (selected >= 0) store.set({ hidden: new Set([...hidden, selected]), selected: -1 });
   };
-  const views = VIEWS.map(([view, words], k): Key => ({ keys: [String(k + 1)], shown: String(k + 1),
+  const looks = VIEWS.map(([view, words], k): Key => ({ keys: [String(k + 1)], shown: String(k + 1),
     text: words, group: 'View', act: () => store.set({ view: view as ViewName }) }));
+  const pictures = () => [views.footage?.canvas, views.flight?.space.canvas].filter((c) => c !== undefined);
+  const point = (tool: Tool) => () => {
+    mending.choose(tool);
+    const { footage } = views;
+    if (mending.tool === 'none' || !footage) crosshair.hide();
+    else crosshair.show(footage.canvas, footage.onScreen(store.get().selected));
+  };
   const keys: Key[] = [
+    ...crosshair.keys(pictures, () => mending.drop()),
     { keys: [' '], shown: 'space', text: 'play or pause', group: 'Time', act: () => store.set({ playing: !store.get().playing }) },
     { keys: ['ArrowRight', '.'], shown: '→', text: 'one frame on', group: 'Time', act: () => clock.step(1) },
     { keys: ['ArrowLeft', ','], shown: '←', text: 'one frame back', group: 'Time', act: () => clock.step(-1) },
@@ -69,9 +84,9 @@ function keysOf(run: Run, mending: Mending, flight: () => FlightView | null): Ke
     { keys: ['o'], shown: 'o', text: 'over and over', group: 'Time', act: flip('loop') },
     { keys: ['+', '='], shown: '+', text: 'faster', group: 'Time', act: pace(1) },
     { keys: ['-'], shown: '−', text: 'slower', group: 'Time', act: pace(-1) },
-    ...views,
-    ...moveKeys(() => flight()?.space),
-    { keys: ['f'], shown: 'f', text: 'the flock into sight', group: 'View', act: () => flight()?.fit() },
+    ...looks,
+    ...moveKeys(() => views.flight?.space),
+    { keys: ['f'], shown: 'f', text: 'the flock into sight', group: 'View', act: () => views.flight?.fit() },
     { keys: ['b'], shown: 'b', text: 'boxes', group: 'Show', act: flip('boxes') },
     { keys: ['i'], shown: 'i', text: 'ids', group: 'Show', act: flip('ids') },
     { keys: ['u'], shown: 'u', text: 'depth uncertainty', group: 'Show', act: flip('bars') },
@@ -111,8 +126,8 @@ function keysOf(run: Run, mending: Mending, flight: () => FlightView | null): Ke
     mend('Mend', 'c', 'split here', () => void mending.split()),
     mend('Mend', 'j', 'join the two', () => void mending.join()),
     mend('Mend', 'Delete', 'delete the track', () => void mending.remove(), 'Del'),
-    mend('Mend', 'p', 'pin: then click the place', () => mending.choose('pin')),
-    mend('Mend', 'a', 'add: then click the place', () => mending.choose('add')),
+    mend('Mend', 'p', 'pin: then the place, by click or crosshair', point('pin')),
+    mend('Mend', 'a', 'add: likewise', point('add')),
     { keys: ['z', 'Ctrl+z'], shown: 'z', text: 'undo', group: 'Mend', act: () => void mending.undo() },
     { keys: ['y', 'Ctrl+y', 'Ctrl+Shift+z'], shown: 'y', text: 'redo', group: 'Mend', act: () => void mending.redo() },
     mend('Mend', 'n', 'next place of doubt', () => mending.jump(1)),
@@ -122,13 +137,14 @@ function keysOf(run: Run, mending: Mending, flight: () => FlightView | null): Ke
 
 export function RunPage({ run }: { run: Run }) {
   const { store, session } = run;
-  const flight = useRef<FlightView | null>(null);
+  const views = useMemo((): Views => ({ footage: null, flight: null }), []);
+  const crosshair = useMemo(() => new Crosshair(), []);
   const film = useRef<HTMLCanvasElement>(null);
   const space = useRef<HTMLCanvasElement>(null);
   const [footage, setFootage] = useState<FootageView | null>(null);
   const [scale, setScale] = useState('');
   const mending = useMemo(() => new Mending(run), [run]);
-  const keys = useMemo(() => keysOf(run, mending, () => flight.current), [run]);
+  const keys = useMemo(() => keysOf(run, mending, crosshair, views), [run]);
   const mode = useValue(store, (s) => s.mode);
   const panel = useValue(store, (s) => s.panel);
   const table = useValue(store, (s) => s.table);
@@ -143,21 +159,21 @@ export function RunPage({ run }: { run: Run }) {
     if (film.current) {
       const view = new FootageView(film.current, run);
       view.onPoint = (x, y, animal, second) => {
-        if (mending.click(x, y)) return;
+        if (mending.click(x, y)) return crosshair.hide();
         store.set(second ? { second: animal } : { selected: animal, second: -1 });
       };
       setFootage(view);
-      handle.footage = view;
+      handle.footage = views.footage = view;
     }
     if (space.current && webgl) {
       const view = new FlightView(space.current, run);
       setScale(`grid ${view.space.gridStep} m`);
       view.onGrid = (step) => setScale(`grid ${step} m`);
-      handle.flight = flight.current = view;
+      handle.flight = views.flight = view;
     }
     Object.assign(window, { flocklift: handle });
     void run.clock.drawn.then(() => {
-      setDrawn(true);
+      requestIdleCallback(() => setDrawn(true), { timeout: 500 });
       if (session.exported || !session.has.boxes) return;
       run.askSuspects().catch((error: unknown) => store.fail(error));
     });
@@ -206,7 +222,7 @@ export function RunPage({ run }: { run: Run }) {
           {(mode === 'look' || session.exported) && <LookPanel run={run} />}
           {mode === 'solve' && !session.exported && <SolvePanel run={run} />}
           {mode === 'mend' && !session.exported && <MendPanel run={run} mending={mending} />}
-          {mode === 'sketch' && !session.exported && footage && <SketchPanel run={run} footage={footage} fit={() => flight.current?.fit()} />}
+          {mode === 'sketch' && !session.exported && footage && <SketchPanel run={run} footage={footage} fit={() => views.flight?.fit()} />}
         </aside>
       )}
       <Notices store={store} />

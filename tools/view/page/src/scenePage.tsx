@@ -6,6 +6,7 @@
 import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 
 import { getJson, post } from './api';
+import { Crosshair } from './crosshair';
 import { Help } from './help';
 import { listenToKeys, type Key } from './keys';
 import { watchLive } from './live';
@@ -61,6 +62,7 @@ export function ScenePage({ session, store }: { session: SceneSession; store: St
     steer(store, { do: 'step' });
   };
   const keys = useMemo((): Key[] => [
+    ...new Crosshair().keys(() => (canvas.current ? [canvas.current] : [])),
     { keys: [' '], shown: 'space', text: 'pause or go on', group: 'Time', act: () => run(!store.get().playing) },
     { keys: ['ArrowRight', '.'], shown: '→', text: 'one step', group: 'Time', act: step },
     { keys: ['r'], shown: 'r', text: 'reset to the start', group: 'Time', act: () => steer(store, { do: 'reset' }) },

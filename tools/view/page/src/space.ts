@@ -66,10 +66,22 @@ export class Space {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener('change', redraw);
     this.controls.zoomToCursor = true;
+    // What the crosshair does in the picture turns nothing: there are keys for that.
+    const isCrosshair = (event: Event) => !event.isTrusted;
+    canvas.addEventListener('pointerdown', (e) => {
+      if (isCrosshair(e)) this.controls.enabled = false;
+    }, { capture: true });
+    canvas.addEventListener('pointerup', (e) => {
+      if (isCrosshair(e)) this.controls.enabled = this.turns;
+    });
     new ResizeObserver(redraw).observe(canvas);
     this.look('orbit', 1);
   }
 
+  // Whether the person turns it, and not what is looked at.
+  get turns(): boolean {
+    return this.view !== 'camera' && this.view !== 'follow';
+  }
   toScene(v: THREE.Vector3): THREE.Vector3 {
     return v.applyMatrix4(this.world);
   }
@@ -135,7 +147,7 @@ export class Space {
     const middle = this.toScene(this.centre.clone());
     const far = 1.25 * this.extent;
     this.view = view;
-    this.controls.enabled = view !== 'camera' && view !== 'follow';
+    this.controls.enabled = this.turns;
     this.camera.fov = view === 'top' || view === 'side' ? 12 : 45;
     const away = view === 'top' || view === 'side' ? (far * 45) / 12 : far;
     const from = new THREE.Vector3(0.75, -1, 0.55).normalize();

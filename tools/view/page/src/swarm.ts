@@ -262,7 +262,7 @@ export class SwarmView {
       const up = (e: PointerEvent) => {
         removeEventListener('pointermove', move);
         removeEventListener('pointerup', up);
-        this.space.controls.enabled = !['camera', 'follow'].includes(this.store.get().view);
+        this.space.controls.enabled = this.space.turns;
         if (draws) {
           const line = this.stroke ?? [];
           if (line.length > 2) this.steering.lead(line.map((p) => p.toArray()));
