@@ -63,6 +63,21 @@ makeFiles(0);
     assert.ok(Math.abs(depth - depthOf(7, frame)) < 1e-3, `${depth} in frame ${frame}`);
   }
   say('frames are there, wherever they are in the files');
+  // While somebody drags, each frame that comes is shown, though another is wanted by then.
+  const shown = await page.evaluate(async (last) => {
+    const { run } = window.flocklift;
+    const canvas = document.querySelector('.flight canvas');
+    const seen = new Set();
+    for (let k = 0; seen.size < 5; k++) {
+      run.clock.go(2 + ((k * 97) % (last - 2)));
+      await new Promise((resolve) => requestAnimationFrame(resolve));
+      if (k === 3000) return 'the flock stands still, or is away';
+      if (canvas.dataset.frame !== '') seen.add(canvas.dataset.frame);
+    }
+    return '';
+  }, FRAMES);
+  assert.equal(shown, '');
+  say('frames are shown while somebody drags');
   await until('the end of reading', () => page.evaluate(() => {
     const { run } = window.flocklift;
     return run.edits.reason === '' && run.store.get().reading === '';

@@ -6,15 +6,21 @@
 import type { Store } from './state';
 
 const PATIENCE = 300; // ms that a drawing waits for what it needs
+const SOON = 100; // ms
 
 export class Clock {
   private last = 0;
   private exact = 0; // the frame with its fraction
   private dirty = true;
   private drawers: (() => void)[] = [];
-  private needs: (() => boolean)[] = [];
-  private waits = 0; // since when [ms]; 0: it does not
+  private needs: ((frame: number) => boolean)[] = [];
+  private asked: number; // the frame that is waited for,
+  private since: number; // and since when [ms]
+  private timer = 0;
   private haveDrawn: () => void = () => undefined;
+  // The frame to draw: the one that the person wants, or, while that changes faster than frames come,
+  // one of a moment ago.
+  frame: number;
   // Once the first pictures are in sight: what they do not need can wait for them.
   readonly drawn = new Promise<void>((resolve) => (this.haveDrawn = resolve));
 
@@ -24,12 +30,15 @@ export class Clock {
     readonly end: number,
     readonly fps: number,
   ) {
-    this.exact = store.get().frame;
+    this.exact = this.asked = this.frame = store.get().frame;
+    this.since = performance.now();
     store.watch((state, before) => {
       this.dirty = true;
       if (state.frame !== before.frame && Math.floor(this.exact) !== state.frame) {
         this.exact = state.frame;
       }
+      // Not with the next picture only: what is asked for now comes sooner.
+      if (state.frame !== before.frame && this.has(this.asked)) this.ask(state.frame);
       if (state.playing && !before.playing) {
         this.last = performance.now();
         if (state.frame >= this.end) this.go(this.first);
@@ -41,13 +50,19 @@ export class Clock {
   onDraw(draw: () => void): void {
     this.drawers.push(draw);
   }
-  // What a drawing needs: asks for it, and says whether it is here. Until all is, nothing is drawn for
-  // a moment: one whole picture takes less time than several in part.
-  onNeed(need: () => boolean): void {
+  // What a drawing of a frame needs: asks for it, and says whether it is here. Until all is, nothing
+  // is drawn for a moment: one whole picture takes less time than several in part.
+  onNeed(need: (frame: number) => boolean): void {
     this.needs.push(need);
   }
   redraw(): void {
+    clearTimeout(this.timer);
+    this.timer = 0;
     this.dirty = true;
+  }
+  // With what else comes in the next moment: for what only completes a picture that is in sight.
+  redrawSoon(): void {
+    this.timer ||= window.setTimeout(() => this.redraw(), SOON);
   }
   go(frame: number): void {
     const at = Math.min(Math.max(Math.round(frame), this.first), this.end);
@@ -59,10 +74,24 @@ export class Clock {
     this.go(this.store.get().frame + frames);
   }
 
-  private mustWait(now: number): boolean {
-    if (this.needs.map((need) => need()).every(Boolean)) return false;
-    this.waits ||= now;
-    return now - this.waits < PATIENCE;
+  private has(frame: number): boolean {
+    return this.needs.map((need) => need(frame)).every(Boolean);
+  }
+  private ask(frame: number): boolean {
+    if (frame !== this.asked) this.since = performance.now();
+    this.asked = frame;
+    return this.has(frame);
+  }
+
+  // Chooses the frame to draw; false: wait.
+  private choose(wanted: number): boolean {
+    if (this.has(this.asked)) {
+      this.frame = wanted !== this.asked && this.has(wanted) ? wanted : this.asked;
+      return true;
+    }
+    if (performance.now() - this.since < PATIENCE) return false;
+    this.frame = wanted;
+    return true;
   }
 
   private tick(now: number): void {
@@ -76,10 +105,11 @@ export class Clock {
       if (this.store.get().playing) this.store.set({ frame: Math.floor(this.exact) });
     }
     this.last = now;
-    if (this.dirty && !this.mustWait(now)) {
-      this.dirty = false;
-      this.waits = 0;
+    const wanted = this.store.get().frame;
+    if (this.dirty && this.choose(wanted)) {
       for (const draw of this.drawers) draw();
+      this.dirty = this.frame !== wanted;
+      this.ask(wanted);
       if (this.drawers.length > 0) setTimeout(this.haveDrawn);
     }
     requestAnimationFrame((next) => this.tick(next));

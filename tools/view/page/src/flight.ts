@@ -58,7 +58,7 @@ export class FlightView {
         if (state.view === 'follow' && state.selected < 0) this.choose(state.frame);
       }
     });
-    clock.onNeed(() => run.flock().ahead(store.get().frame) !== undefined);
+    clock.onNeed((frame) => run.flock().ahead(frame) !== undefined);
     clock.onDraw(() => this.draw());
     let start: [number, number] = [0, 0];
     canvas.addEventListener('pointerdown', (e) => (start = [e.clientX, e.clientY]));
@@ -107,7 +107,7 @@ export class FlightView {
 
   draw(): void {
     const { run, space } = this;
-    const { frame } = run.store.get();
+    const { frame } = run.clock;
     const rows = run.flock().ahead(frame);
     if (rows && this.fits && run.flock().isNew(frame)) this.fitNow(rows);
     this.follow(rows, frame);
@@ -236,10 +236,11 @@ export class FlightView {
 
   private animalAt(x: number, y: number): number {
     const state = this.run.store.get();
-    const rows = this.run.flock().at(state.frame);
+    const { frame } = this.run.clock;
+    const rows = this.run.flock().at(frame);
     let best = -1;
     let least = 18; // CSS px
-    const [begin, end] = rows ? rowsOf(rows, state.frame) : [0, 0];
+    const [begin, end] = rows ? rowsOf(rows, frame) : [0, 0];
     for (let r = begin; rows && r < end; r++) {
       if (!isShown(state, rows.animal[r])) continue;
       const p = this.space.onCanvas(...placeOf(rows, r).toArray());

@@ -31,9 +31,9 @@ export class FootageView {
     this.pictures = new Pictures(run);
     this.overlay = new Overlay(run);
     new ResizeObserver(() => run.clock.redraw()).observe(canvas);
-    const { session, boxes, store } = run;
+    const { session, boxes } = run;
     // A picture that comes late is drawn with its own tracks, so nothing has to wait for it.
-    run.clock.onNeed(() => !session.has.boxes || boxes.ahead(store.get().frame) !== undefined);
+    run.clock.onNeed((frame) => !session.has.boxes || boxes.ahead(frame) !== undefined);
     run.clock.onDraw(() => this.draw());
     run.store.watch((state, before) => {
       if (state.selected !== before.selected) this.reveal = this.zoom > 1;
@@ -93,9 +93,10 @@ export class FootageView {
       canvas.height = height;
     }
     const state = run.store.get();
+    const { frame } = run.clock;
     this.shown = run.session.footage
-      ? this.pictures.show(state.frame, state.playing)
-      : { frame: state.frame, bitmap: null };
+      ? this.pictures.show(frame, state.playing)
+      : { frame, bitmap: null };
     const g = flatContext(canvas);
     g.setTransform(1, 0, 0, 1, 0, 0);
     g.fillStyle = ground(state.dark).back;
@@ -119,11 +120,11 @@ export class FootageView {
     const px = (type * ratio) / t.scale;
     this.overlay.draw(g, this.shown.frame, px, this.shown.bitmap !== null);
     drawStrokes(g, this.strokes, px);
-    if (this.shown.frame !== run.source.pictured(state.frame)) {
+    if (this.shown.frame !== run.source.pictured(frame)) {
       g.setTransform(1, 0, 0, 1, 0, 0);
       g.font = `${12 * ratio}px system-ui, sans-serif`;
       g.fillStyle = ground(state.dark).ink;
-      g.fillText(`frame ${this.shown.frame}; ${state.frame} is on its way`, 10 * ratio, 20 * ratio);
+      g.fillText(`frame ${this.shown.frame}; ${frame} is on its way`, 10 * ratio, 20 * ratio);
     }
     canvas.dataset.frame = String(this.shown.frame);
   }

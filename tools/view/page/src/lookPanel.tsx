@@ -11,7 +11,8 @@ import type { Run } from './run';
 import { useParts, useValue, type Ghost } from './state';
 
 const MOST_LISTED = 400; // animals
-const AT_ONCE = 50; // entries of the list that are made in one go
+const AT_ONCE = 25; // entries of the list that are made in one go
+const LATEST = 2000; // ms that they wait for a moment in which nothing is drawn
 
 type Switch = 'boxes' | 'ids' | 'bars' | 'grid';
 const SWITCHES: [Switch, string, string][] = [
@@ -59,7 +60,7 @@ export function LookPanel({ run }: { run: Run }) {
     // After the pictures, and bit by bit.
     if (listed >= Math.min(animals.length, MOST_LISTED)) return undefined;
     let alive = true;
-    void run.clock.drawn.then(() => setTimeout(() => alive && setListed(listed + AT_ONCE), 20));
+    void run.clock.drawn.then(() => requestIdleCallback(() => alive && setListed(listed + AT_ONCE), { timeout: LATEST }));
     return () => void (alive = false);
   }, [listed, animals.length]);
   // Made once, so that they are not looked at again whenever the rest of the panel changes.

@@ -10,6 +10,7 @@ import './style.css';
 import { render } from 'preact';
 
 import { getJson, listen } from './api';
+import { hasWebGL } from './graphics';
 import { Run } from './run';
 import { RunPage } from './runPage';
 import { ScenePage } from './scenePage';
@@ -50,7 +51,9 @@ async function start(root: HTMLElement): Promise<void> {
   applyTheme(store);
   const exported = exportedSource();
   if (exported) return showRun(exported, root);
-  const session = await getJson<Session>('api/session');
+  const asked = getJson<Session>('api/session');
+  hasWebGL(); // takes a while, and so does the answer
+  const session = await asked;
   document.title = `${session.name} – flocklift`;
   if (session.kind === 'run') return showRun(serverSource(session), root);
   store.set({ mode: 'steer', playing: true, trails: 12 });

@@ -5,12 +5,11 @@
 
 import { getJson } from './api';
 import { Clock } from './clock';
-import { FrameCache, type BoxRows, type TrajectoryRows } from './frames';
+import { FrameCache, Lane, extentOf } from './frameCache';
+import type { BoxRows, TrajectoryRows } from './frames';
 import { WINDOW_OF_EXPORT, type Source } from './source';
 import type { Store } from './state';
 import type { Edits, RunSession, SolveNews, Suspect, Versions } from './types';
-
-const ROWS_OF_WINDOW = 20000;
 
 export class Run {
   readonly clock: Clock;
@@ -37,14 +36,17 @@ export class Run {
     this.edits = s.edits;
     this.command = s.solve.command;
     this.clock = new Clock(store, s.frames.first, s.frames.last, s.fps ?? 25);
-    const length = s.exported
-      ? WINDOW_OF_EXPORT
-      : Math.min(Math.max(Math.floor(ROWS_OF_WINDOW / Math.max(this.animals.length, 1)), 16), 256);
+    const extent = s.exported
+      ? { length: WINDOW_OF_EXPORT, windows: 24, glimpses: 0 }
+      : extentOf(this.animals.length);
+    const lane = new Lane();
     const cache = <T extends BoxRows | TrajectoryRows>(what: string) =>
       new FrameCache<T>(
-        length,
-        (first, last) => source.window(what, first, last),
+        extent,
+        lane,
+        (first, last, signal) => source.window(what, first, last, signal),
         () => this.clock.redraw(),
+        () => this.clock.redrawSoon(),
         (error) => store.fail(error),
       );
     this.boxes = cache('boxes');

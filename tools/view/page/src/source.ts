@@ -8,7 +8,7 @@ import type { RunSession, Series } from './types';
 
 export interface Source {
   session: RunSession;
-  window(what: string, first: number, last: number): Promise<ArrayBuffer>;
+  window(what: string, first: number, last: number, signal: AbortSignal): Promise<ArrayBuffer>;
   // The frame whose picture stands for `frame`: itself, or one before it of which there is one.
   pictured(frame: number): number;
   picture(frame: number, width: number, signal: AbortSignal): Promise<Blob>;
@@ -18,8 +18,8 @@ export interface Source {
 export function serverSource(session: RunSession): Source {
   return {
     session,
-    window: (what, first, last) =>
-      getBytes(`api/window?what=${what}&first=${first}&last=${last}`),
+    window: (what, first, last, signal) =>
+      getBytes(`api/window?what=${what}&first=${first}&last=${last}`, signal),
     pictured: (frame) => frame,
     picture: (frame, width, signal) => getBlob(`frame/${frame}?width=${width}`, signal),
     series: (what, animal) =>
