@@ -3,9 +3,7 @@
 
 #include "tools/view/background.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -35,12 +33,21 @@ void Background::Add(Job job) {
   changed_.notify_all();
 }
 
+void Background::GiveWay() { quiet_from_ = Clock::now().time_since_epoch() + kQuiet; }
+
+void Background::Rest() {
+  const Clock::time_point latest = Clock::now() + kLongestRest;
+  while (!stops_) {
+    const Clock::time_point until = std::min(Clock::time_point(quiet_from_), latest);
+    if (until <= Clock::now()) return;
+    std::unique_lock lock(mutex_);
+    changed_.wait_until(lock, until, [this] { return stops_.load(); });
+  }
+}
+
 void Background::Work() {
-  // Linux gives every thread a priority of its own; where this is refused, work goes on all the
-  // same.
-  constexpr int kNice = 10;
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
   const Progress progress = [this](std::int64_t, std::int64_t) {
+    Rest();
     if (stops_) throw Ended();
   };
   while (true) {

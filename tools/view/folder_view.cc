@@ -87,6 +87,7 @@ class FolderView::Impl {
 
  private:
   HttpReply Window(const HttpRequest& request) {
+    background_.GiveWay();
     const int first = request.Number("first"), last = request.Number("last");
     const std::shared_lock lock(mutex_);
     HttpReply reply = BinaryReply(data_.Window(request.Text("what"), first, last));
@@ -147,6 +148,7 @@ class FolderView::Impl {
   }
 
   HttpReply Frame(const HttpRequest& request) {
+    background_.GiveWay();
     const auto& footage = data_.footage();
     HttpRequest numbered = request;
     numbered.query["frame"] = request.path.substr(request.path.find_last_of('/') + 1);

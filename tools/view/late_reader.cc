@@ -15,7 +15,7 @@
 namespace flocklift {
 namespace {
 
-constexpr int kPart = 128;                   // frames read at a time
+constexpr int kPart = 16;                    // frames read at a time
 constexpr std::size_t kCurveRows = 300'000;  // several a pixel of the curves
 
 // Calls read(first, last) for all frames of the file in parts; false when one of them says that
@@ -81,7 +81,8 @@ void LateReader::DrawCurves(const std::string& what, const Progress& alive) {
     rows = *flock;
   }
   const Trajectories sample = rows->Sample(kCurveRows, Telling("Reading for the curves", alive));
-  Change([&](RunData* data) { data->SetCurves(what, sample); });
+  TrajectoryTable curves = data_->CurvesOf(sample);
+  Change([&](RunData* data) { data->SetCurves(what, std::move(curves)); });
 }
 
 void LateReader::TakeTracks(const Progress& alive) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <utility>
 
 #include "simulate/core/check.h"
@@ -171,8 +172,11 @@ const std::optional<RunData::Flock>& RunData::Find(const std::string& what) cons
 
 template <typename Rows>
 std::string RunData::Packed(const Rows& rows, int first, int last) const {
-  const std::lock_guard lock(animals_mutex_);
-  animals_.Add(rows);
+  {
+    const std::unique_lock lock(animals_mutex_);
+    animals_.Add(rows);
+  }
+  const std::shared_lock lock(animals_mutex_);
   return PackWindow(TableOf(rows, animals_), first, last);
 }
 
@@ -204,9 +208,13 @@ const FlockRows* RunData::FlockOf(const std::string& what) const {
 }
 
 TrajectoryTable RunData::CurvesOf(const Trajectories& sample) const {
-  const std::lock_guard lock(animals_mutex_);
-  animals_.Add(sample);
-  return TableOf(sample, animals_);
+  AnimalList animals;  // by itself: the background, which calls this, must not hold up windows
+  {
+    const std::unique_lock lock(animals_mutex_);
+    animals_.Add(sample);
+    animals = animals_;
+  }
+  return TableOf(sample, animals);
 }
 
 void RunData::SetTracks(Tracks tracks) {
@@ -226,18 +234,18 @@ void RunData::SetFlock(const std::string& what, FlockRows rows) {
   ++curves_version_;
 }
 
-void RunData::SetCurves(const std::string& what, const Trajectories& sample) {
-  (what == "truth" ? truth_ : before_)->curves = CurvesOf(sample);
+void RunData::SetCurves(const std::string& what, TrajectoryTable curves) {
+  (what == "truth" ? truth_ : before_)->curves = std::move(curves);
   ++curves_version_;
 }
 
 void RunData::AddAnimals(const std::vector<Id>& ids) const {
-  const std::lock_guard lock(animals_mutex_);
+  const std::unique_lock lock(animals_mutex_);
   for (const Id id : ids) animals_.Add(id);
 }
 
 std::size_t RunData::animal_count() const {
-  const std::lock_guard lock(animals_mutex_);
+  const std::shared_lock lock(animals_mutex_);
   return animals_.ids().size();
 }
 
@@ -276,7 +284,7 @@ TrackEditor& RunData::editor() {
 
 void RunData::TracksChanged() {
   tracks_ = editor_->Current();
-  const std::lock_guard lock(animals_mutex_);
+  const std::unique_lock lock(animals_mutex_);
   for (const auto& t : tracks_) animals_.Add(t->id);
   ++boxes_version_;
 }
@@ -304,7 +312,7 @@ FrameSpan RunData::Span() const {
 }
 
 Json RunData::Versions() const {
-  const std::lock_guard lock(animals_mutex_);
+  const std::shared_lock lock(animals_mutex_);
   Json ids = Json::array();
   for (const Id id : animals_.ids()) ids.push_back(std::to_string(id));
   return {{"boxes", boxes_version_},

@@ -13,9 +13,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <shared_mutex>
 #include <string>
 #include <vector>
 
@@ -49,11 +49,13 @@ class RunData {
   // What is not in memory: the file of the tracks, if so, and "before" or "truth" (null: none).
   const std::optional<TableByFrame>& track_file() const { return track_file_; }
   const FlockRows* FlockOf(const std::string& what) const;
-  // What the LateReader found.
+  // As columns; of all that is const here, what takes longest for a large sample.
+  TrajectoryTable CurvesOf(const Trajectories& sample) const;
+  // What the LateReader found. Nobody is answered meanwhile, so none of it takes long.
   void SetTracks(Tracks tracks);
   void SetNoTracks(const std::string& reason);
   void SetFlock(const std::string& what, FlockRows rows);
-  void SetCurves(const std::string& what, const Trajectories& sample);
+  void SetCurves(const std::string& what, TrajectoryTable curves);
   void AddAnimals(const std::vector<Id>& ids) const;
 
   // The command that made the trajectories, with the files as they are here.
@@ -90,12 +92,11 @@ class RunData {
   void OpenFootage();
   void OpenEditor();
   const std::optional<Flock>& Find(const std::string& what) const;
-  TrajectoryTable CurvesOf(const Trajectories& sample) const;
   template <typename Rows>
   std::string Packed(const Rows& rows, int first, int last) const;
 
   RunFolder run_;
-  mutable std::mutex animals_mutex_;
+  mutable std::shared_mutex animals_mutex_;
   mutable AnimalList animals_;  // grows by whatever is come across
   std::optional<Flock> before_, after_, truth_;
   std::optional<TableByFrame> track_file_;  // until they are read

@@ -5,9 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <future>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace flocklift {
@@ -26,6 +29,41 @@ TEST(Background, DoesOneJobAfterAnother) {
   background.Add([&last](const Progress&) { last.set_value(); });
   last.get_future().wait();
   EXPECT_EQ(done, (std::vector<int>{0, 1, 2, 3, 4}));
+}
+
+TEST(Background, RestsWhileOthersAreWaitedFor) {
+  using Clock = std::chrono::steady_clock;
+  Background background;
+  std::promise<void> started;
+  std::promise<int> counted;
+  std::atomic<bool> is_over = false;
+  background.Add([&](const Progress& alive) {
+    started.set_value();
+    int reports = 0;
+    for (; !is_over; ++reports) alive(0, 1);
+    counted.set_value(reports);
+  });
+  background.GiveWay();
+  started.get_future().wait();
+  // As often as it may, it goes on once in so long a rest; at its own pace it would a million
+  // times.
+  for (const auto end = Clock::now() + 3 * Background::kLongestRest; Clock::now() < end;) {
+    background.GiveWay();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  is_over = true;
+  EXPECT_LE(counted.get_future().get(), 5);
+}
+
+TEST(Background, GoesOnOnceItIsQuiet) {
+  Background background;
+  std::promise<void> done;
+  background.GiveWay();
+  background.Add([&](const Progress& alive) {
+    for (int k = 0; k < 1000; ++k) alive(k, 1000);  // with a rest for each it would take minutes
+    done.set_value();
+  });
+  EXPECT_EQ(done.get_future().wait_for(std::chrono::minutes(1)), std::future_status::ready);
 }
 
 TEST(Background, EndsAJobThatReports) {
