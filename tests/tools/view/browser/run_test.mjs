@@ -186,8 +186,13 @@ await goTo(page, 40);
 await press('Tab');
 const chosen = (await state()).selected;
 const [startX, startY] = await at(chosen);
-const corrections = () => (existsSync(join(scratch, 'corrections.txt')) ?
-  readFileSync(join(scratch, 'corrections.txt'), 'utf8') : '');
+const corrections = () => {
+  try {
+    return readFileSync(join(scratch, 'corrections.txt'), 'utf8');
+  } catch {
+    return ''; // there are none
+  }
+};
 const inPicture = (x, y) => page.evaluate(([u, v]) =>
   window.flocklift.footage.toPicture({ clientX: u, clientY: v }), [x, y]);
 await press('p');
@@ -220,6 +225,7 @@ assert.equal(await page.locator('.flight .crosshair').count(), 1);
 await press('k');
 assert.equal(await page.locator('.crosshair').count(), 0);
 await press('F4');
+await until('the panel', () => page.getByText('find depth of 0 strokes').isVisible());
 await press('k');
 await press('v');
 for (let k = 0; k < 4; k++) await press('ArrowLeft');

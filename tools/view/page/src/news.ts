@@ -11,6 +11,10 @@ export interface Newsroom {
 
 export function useNews<T>(room: Newsroom, pick: () => T): T {
   const [, setCount] = useState(0);
-  useEffect(() => room.watch(() => setCount((n) => n + 1)), [room]);
-  return pick();
+  const picked = pick();
+  useEffect(() => {
+    if (pick() !== picked) setCount((n) => n + 1); // told before anybody listened
+    return room.watch(() => setCount((n) => n + 1));
+  }, [room]);
+  return picked;
 }

@@ -31,6 +31,9 @@ export class Plots {
     const fontSize = Math.round(parseFloat(getComputedStyle(element).fontSize) * 0.85);
     const axis = { stroke: colours.ink, grid: { stroke: colours.grid, width: 1 },
       font: `${fontSize}px system-ui, sans-serif`, ticks: { show: false } };
+    // Lines grow with the type, so that they are seen on a large screen too.
+    const type = parseFloat(getComputedStyle(document.documentElement).fontSize) / 13;
+    const lines = series.map((line) => ({ ...line, width: type * (line.width ?? 1.5) }));
     this.words.className = 'no-curves';
     this.words.textContent = nothing;
     this.words.hidden = true;
@@ -48,7 +51,7 @@ export class Plots {
         legend: { show: false },
         padding: [fontSize * 2.1, fontSize * 1.6, 0, 0],
         axes: [{ ...axis, size: fontSize * 1.9, space: 60 }, { ...axis, size: fontSize * 3.4, space: 28 }],
-        series: [{}, ...series],
+        series: [{}, ...lines],
         ...rest,
         scales: { x: { time: false, ...rest.scales?.x }, y: y ? { range: y } : {} },
       }, [[], ...series.map(() => [])] as uPlot.AlignedData, cell);

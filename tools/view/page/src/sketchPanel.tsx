@@ -3,7 +3,7 @@
 //
 // Strokes over the picture become tracks: how many animals fly along them, and for how long.
 
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useState } from 'preact/hooks';
 
 import { post } from './api';
 import { CopyLine } from './copy';
@@ -18,7 +18,7 @@ export function SketchPanel({ run, footage, fit }:
   const [count, setCount] = useState(footage.strokes.length);
   const [command, setCommand] = useState('');
   const news = useNews(run, () => run.solve);
-  useEffect(() => {
+  useLayoutEffect(() => { // before anybody can draw
     footage.onStroke = (stroke) => {
       footage.strokes.push(stroke);
       setCount(footage.strokes.length);
