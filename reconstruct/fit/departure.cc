@@ -4,6 +4,7 @@
 #include "reconstruct/fit/departure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -11,8 +12,27 @@
 #include "reconstruct/fit/engine_flight.h"
 #include "reconstruct/fit/goal_groups.h"
 #include "simulate/core/check.h"
+#include "simulate/flock/shape_targets.h"
 
 namespace flocklift {
+
+namespace {
+
+// Of each id, in the first of these frames that has it, or else its position now.
+std::vector<Vec3d> FirstSeen(const std::vector<Id>& ids, std::vector<Vec3d> position,
+                             std::span<const FramePositions> frames) {
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    for (const FramePositions& frame : frames) {
+      const auto found = std::lower_bound(frame.id.begin(), frame.id.end(), ids[k]);
+      if (found == frame.id.end() || *found != ids[k]) continue;
+      position[k] = frame.position[static_cast<std::size_t>(found - frame.id.begin())];
+      break;
+    }
+  }
+  return position;
+}
+
+}  // namespace
 
 std::string WhyNoDeparture(const ModelSpec& model) {
   if (model.name == "shape") return "it flies to meshes, which trajectories do not hold";
@@ -55,7 +75,8 @@ Departures::Departures(const std::optional<Scene>& scene, const Parameters& para
   swarm_.model = ResolveModel(model);
   swarm_.spec = model;
   swarm_.forces = model.terms;
-  if (model.name != "crowd") return;
+  settled_time_ = world_.time;
+  if (model.name != "crowd" && model.name != "shape") return;
   seen_ = internal::FramesOf(seen);
   seen_time_ = (SpanOf(seen).first - 1) / fps;
 }
@@ -67,7 +88,8 @@ Departure Departures::At(double time, const std::vector<Id>& ids,
   departure.world.time = time;
   std::vector<std::size_t> order(ids.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (!seen_.empty()) order = OrderByGoal(world_, swarm_.species, seen_, seen_time_, fps_, ids);
+  if (swarm_.spec.name == "crowd")
+    order = OrderByGoal(world_, swarm_.species, seen_, seen_time_, fps_, ids);
   Swarm& swarm = departure.swarm;
   swarm.position.clear();
   swarm.velocity.clear();
@@ -81,7 +103,35 @@ Departure Departures::At(double time, const std::vector<Id>& ids,
   }
   const double radius = swarm.radius.empty() ? 0 : swarm.radius.front();
   swarm.radius.assign(ids.size(), radius);
+  if (swarm_.spec.name == "shape") swarm.settled = SettlingOf(time, ids, position);
   return departure;
+}
+
+Settling Departures::SettlingOf(double time, const std::vector<Id>& ids,
+                                const std::vector<Vec3d>& position) const {
+  Settling settled{.position = position, .time = settled_time_};
+  const auto is_its = [&](const ShapeInTime& shape) { return shape.name == swarm_.shape; };
+  const auto shape = std::find_if(world_.shapes.begin(), world_.shapes.end(), is_its);
+  if (shape == world_.shapes.end()) return settled;  // the model will complain
+  const std::string& name = swarm_.path.empty() ? shape->path : swarm_.path;
+  const auto has_name = [&](const PathSpec& path) { return path.name == name; };
+  const auto path = std::find_if(world_.paths.begin(), world_.paths.end(), has_name);
+  const double frames = std::max(0.0, std::round((time - seen_time_) * fps_));
+  const auto before = std::min(static_cast<std::size_t>(frames), seen_.size());
+  const std::vector<Vec3d> first = FirstSeen(ids, position, std::span(seen_).first(before));
+  // How much nearer everybody has come to the places that are settled from there.
+  const auto progress = [&](const std::vector<Vec3d>& from) {
+    ShapeTargets places(*shape, path == world_.paths.end() ? nullptr : &*path, world_.duration,
+                        from, settled_time_, world_.seed, 1);
+    double sum = 0;
+    const std::vector<Vec3d> then = places.At(seen_time_);
+    for (std::size_t k = 0; k < ids.size(); ++k) sum += Norm(then[k] - first[k]);
+    const std::vector<Vec3d>& now = places.At(time);
+    for (std::size_t k = 0; k < ids.size(); ++k) sum -= Norm(now[k] - position[k]);
+    return sum;
+  };
+  if (progress(first) > progress(position)) settled.position = first;
+  return settled;
 }
 
 std::vector<std::size_t> NearestPaths(const std::vector<Id>& ids,

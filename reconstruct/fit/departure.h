@@ -4,6 +4,9 @@
 // Where a flight of a fitted model departs from: a state of trajectories, in the surroundings of a
 // scene where one is given (its meshes, paths, goals, obstacles, predators, wind and events), else
 // in those that were fitted. Walkers of a crowd belong to the goals that they were seen to go to.
+// Whose place on a shape is whose was settled when a swarm started. It is settled again from where
+// they were first seen, or from where they are, by which they have come nearer to their places:
+// the first while a swarm is on its way, the other once it has arrived.
 //
 // Tetrahedra that morph cannot depart from a state: a place says neither whose place in the target
 // a tetrahedron will take nor how far it is along its way. They fly from the scene's start, and an
@@ -47,11 +50,15 @@ class Departures {
   const Swarm& swarm() const { return swarm_; }
 
  private:
+  Settling SettlingOf(double time, const std::vector<Id>& ids,
+                      const std::vector<Vec3d>& position) const;
+
   World world_;
   Swarm swarm_;
   double fps_, seen_time_ = 0;  // of the first frame seen [s]
+  double settled_time_ = 0;     // of the scene's start [s]
   int substeps_;
-  std::vector<FramePositions> seen_;  // of a crowd
+  std::vector<FramePositions> seen_;  // of a crowd, and of a swarm that forms a shape
 };
 
 // Why the model flies from no state of trajectories without a scene, in a line; empty when it does.

@@ -35,6 +35,7 @@ struct Swarm {
   std::string shape = {}, path = {};        // the species' own, by name
   std::string start_shape = {};             // likewise
   std::vector<ModelSpec> forces = {};       // added to the model's
+  Settling settled = {};                    // of a swarm that forms a shape
 };
 
 struct EngineOptions {

@@ -48,6 +48,7 @@ struct BasicEngine<T>::Impl {
                                   .shape = swarm.shape,
                                   .path = swarm.path,
                                   .start_shape = swarm.start_shape,
+                                  .settled = &added.swarm.settled,
                                   .forces = &added.swarm.forces,
                                   .kernel = options.kernel,
                                   .pool = &pool,

@@ -61,6 +61,7 @@ struct MotionContext {
   std::string species;                             // the herd's
   std::string shape, path;                         // the species' own, by name; may be empty
   std::string start_shape;                         // likewise
+  const Settling* settled = nullptr;               // lives as long as the motion is made
   const std::vector<ModelSpec>* forces = nullptr;  // [[species.force]], checked
   std::string kernel;          // instruction set by name; empty: the fastest there is
   ThreadPool* pool = nullptr;  // for the preparation

@@ -9,6 +9,7 @@
 #include <vector>
 #include <xsimd/xsimd.hpp>
 
+#include "simulate/core/check.h"
 #include "simulate/fields/curl_noise.h"
 #include "simulate/flock/force_passes.h"
 #include "simulate/flock/integrator.h"
@@ -56,13 +57,23 @@ std::vector<Vec3d> ByAgent(const Herd<T>& herd) {
 }
 
 template <typename T>
+ShapeTargets MakeTargets(const MotionContext& context, const Herd<T>& herd) {
+  const ShapeInTime& shape = FindShape(context);
+  const bool anew = context.settled == nullptr || context.settled->position.empty();
+  const std::vector<Vec3d> start = anew ? ByAgent(herd) : context.settled->position;
+  Check(start.size() == herd.size(), "everybody on a shape was somewhere when places were settled");
+  return ShapeTargets(shape, FindPath(context, shape), context.world->duration, start,
+                      anew ? context.world->time : context.settled->time, context.world->seed,
+                      context.pool->threads());
+}
+
+template <typename T>
 class ShapeMotion final : public Motion<T> {
  public:
   ShapeMotion(const ShapeParameters& p, const MotionContext& context, const Herd<T>& herd)
       : p_(p),
         kernel_(std::is_same_v<T, float> ? ChooseKernel(context.kernel) : nullptr),
-        targets_(FindShape(context), FindPath(context, FindShape(context)), context.world->duration,
-                 ByAgent(herd), context.world->time, context.world->seed, context.pool->threads()),
+        targets_(MakeTargets(context, herd)),
         obstacles_(context.world->obstacles, p.obstacle_range, context.pool->threads()),
         forces_(context, herd.size()),
         noise_seed_(StreamOf(Stream::kNoise, context.world->seed, herd.first_agent).Bits()),

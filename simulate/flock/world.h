@@ -39,6 +39,12 @@ struct ShapeInTime {
   std::vector<Tetra> filling = {};
 };
 
+// Where and when it was settled whose place on a shape is whose.
+struct Settling {
+  std::vector<Vec3d> position;  // by agent [m]; empty: where and when the swarm starts
+  double time = 0;              // [s]; a path was entered then
+};
+
 // Without a box there are no walls.
 struct World {
   static constexpr double kFar = std::numeric_limits<double>::infinity();

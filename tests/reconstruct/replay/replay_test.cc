@@ -304,6 +304,49 @@ TEST(Replay, FliesToWhatASceneHolds) {
   }
 }
 
+// In mid-flight a swarm goes on to the places that were settled where it was first seen; by paths
+// that begin later it is as if it started there.
+TEST(Replay, ASwarmOnItsWayKeepsItsPlacesOnTheShape) {
+  Scene scene = ShapeScene();
+  scene.warmup = 0;
+  scene.duration = 6;
+  scene.species[0].count = 3000;
+  scene.species[0].start = Region{{-9, -3, 6}, {-3, 3, 20}};
+  scene.species[0].model.parameters = {};
+  scene.shapes = {Shape("star", "moon.ply", {0, 0, 13}, 10)};
+  const Trajectories truth = SimulateScene(scene, {}, {}).truth;
+  ReplayOptions options;
+  options.frame = 46;
+  options.duration = 1;
+  const auto end = [&](const Trajectories& seen) {
+    const ReplayResult result = Replay(options, By(scene.species[0].model), seen, scene.fps,
+                                       scene.seed + 1, 2, {}, {}, scene);
+    return result.divergence.back();
+  };
+  Trajectories later = truth;
+  for (Trajectory& path : later.trajectories) {
+    std::erase_if(path.points, [](const TrajectoryPoint& point) { return point.frame < 46; });
+  }
+  const Divergence whole = end(truth), anew = end(later);
+  EXPECT_LT(whole.model_rms, 0.6 * anew.model_rms);
+  EXPECT_LT(whole.model_rms, whole.straight_on_rms);
+}
+
+// Along a path it goes on where it is, not where the path begins, with everybody near his place.
+TEST(Replay, ASwarmThatHasArrivedStaysOnItsShape) {
+  Scene scene = ShapeScene();
+  scene.warmup = 0;
+  scene.duration = 6;
+  PathSpec& path = scene.paths.emplace_back();
+  path.name = "way";
+  path.points = {{0, 0, 0}, {1, 0.2, 0}, {2, 0.2, 0}, {3, 0, 0}};
+  path.speed = 0.3;
+  scene.species[0].path = path.name;
+  const Divergence end = InScene(scene, 46).divergence.back();
+  EXPECT_GT(end.time, 2.5);
+  EXPECT_LT(end.model_rms, 0.5 * end.straight_on_rms);
+}
+
 TEST(Replay, TheForcesOfASceneFeelItsWind) {
   Scene scene = OpenSkyScene();
   scene.wind.velocity = {0, 0, 12};
