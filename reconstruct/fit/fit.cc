@@ -122,7 +122,9 @@ void Fitter::ChooseRows() {
 }
 
 void Fitter::ChooseWhitening() {
-  whitening_.lagged = result_.method != FitMethod::kDifferences;
+  whitening_.lagged =
+      result_.method != FitMethod::kDifferences && noise_assumed_ != NoiseAssumed::kIsSmall;
+  whitening_.memory = noise_assumed_ == NoiseAssumed::kMayLast;
   whitening_.own_speed = terms_.has_own_speed;
   whitening_.stride = stride_;
   if (!trajectories_.has_sd_depth) return;
@@ -247,19 +249,26 @@ FitResult FitModel(const FitOptions& options, const FitProblem& given,
                      "take --method statistics");
   }
   FitOptions chosen = internal::InScene(options, problem, fps);
-  std::vector<std::string> notes;
-  if (!trajectories.has_sd_depth &&
-      (problem.method == FitMethod::kAuto || problem.method == FitMethod::kErrorsInVariables)) {
-    problem = internal::ChooseRadii(chosen, problem, trajectories, fps, seed, threads, &notes);
-  }
-  if (options.window == 0 && trajectories.has_sd_depth &&
-      problem.method != FitMethod::kStateSpace && problem.method != FitMethod::kDifferences) {
+  const bool regressed =
+      problem.method == FitMethod::kErrorsInVariables || problem.method == FitMethod::kAuto;
+  const bool by_flight = regressed && trajectories.has_sd_depth && options.window == 0;
+  internal::RadiusChoice choice{.problem = problem, .notes = {}};
+  if (by_flight) {
     chosen.window =
-        internal::ChooseWindowByFlight(chosen, problem, trajectories, fps, seed, threads);
+        internal::ChooseWindowByFlight(chosen, choice, trajectories, fps, seed, threads);
   }
-  FitResult result =
-      internal::Fitter(chosen, problem, trajectories, fps, seed, threads).Run(progress);
-  result.warnings.insert(result.warnings.begin(), notes.begin(), notes.end());
+  if (regressed) {
+    choice = internal::ChooseRadii(chosen, problem, trajectories, fps, seed, threads);
+  }
+  if (by_flight && !choice.notes.empty()) {
+    chosen.window = 0;
+    chosen.window =
+        internal::ChooseWindowByFlight(chosen, choice, trajectories, fps, seed, threads);
+  }
+  internal::Fitter fitter(chosen, choice.problem, trajectories, fps, seed, threads);
+  fitter.Assume(choice.noise);
+  FitResult result = fitter.Run(progress);
+  result.warnings.insert(result.warnings.begin(), choice.notes.begin(), choice.notes.end());
   return result;
 }
 

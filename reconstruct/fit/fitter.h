@@ -24,6 +24,14 @@
 
 namespace flocklift::internal {
 
+// What a regression takes for granted of what the model leaves over. Where the model is wrong, so
+// may be all else that is estimated with it: its memory, or weights by instruments.
+enum class NoiseAssumed {
+  kMayLast,
+  kIsNew,    // in every frame
+  kIsSmall,  // beside what the model explains: least squares
+};
+
 class Fitter {
  public:
   Fitter(const FitOptions& options, const FitProblem& problem, const Trajectories& trajectories,
@@ -35,6 +43,8 @@ class Fitter {
         seed_(seed),
         threads_(threads),
         flock_(trajectories, fps, options.bridged_gap) {}
+
+  void Assume(NoiseAssumed noise) { noise_assumed_ = noise; }
 
   FitResult Run(const Progress& progress);
 
@@ -60,6 +70,7 @@ class Fitter {
   // Rows and weights for the terms as they are; u_ is what they leave over.
   WhitenedFit Solve(const Progress& progress);
   double Pull() const;
+  bool IsHeld() const;
   std::optional<double> Prediction() const;
   // Fits with a goal where one is called for, and keeps it when it predicts better.
   void SettleGoal(WhitenedFit* fit);
@@ -95,6 +106,7 @@ class Fitter {
   FlockTerms terms_;
   WhiteningOptions whitening_;
   MotionRows rows_;
+  NoiseAssumed noise_assumed_ = NoiseAssumed::kMayLast;
   int window_ = 1, stride_ = 1;
   std::vector<int> middles_;
   std::vector<Vec3d> u_;

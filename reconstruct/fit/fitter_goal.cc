@@ -33,11 +33,18 @@ void Fitter::UseGoal(const std::optional<GoalSpec>& goal) {
   terms_ = MakeFlockTerms(model_, names, problem_.walls, goal, cruising_speed_, around_);
 }
 
+// Weights without what holds the animals may pass it for noise that lasts, so that nothing is left
+// over that would call for a goal: their accelerations are asked too.
+bool Fitter::IsHeld() const {
+  if (problem_.walls) return false;
+  return std::max(Pull(), PullToTheMiddle(rows_, rows_.response)) > kConfining;
+}
+
 void Fitter::SettleGoal(WhitenedFit* fit) {
   const bool possible = model_.parameters.contains("goal_range");
   if (!possible || problem_.goal == GoalChoice::kNone) return;
   const bool may_go_without = problem_.goal == GoalChoice::kWhenHeld;
-  if (may_go_without && Pull() <= kConfining) return;
+  if (may_go_without && !IsHeld()) return;
   const std::optional<double> without = Prediction();
   Vec3d mean;
   for (const Vec3d& x : rows_.position) mean += x / static_cast<double>(rows_.size());

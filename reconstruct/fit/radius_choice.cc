@@ -14,7 +14,6 @@
 #include <stdexcept>
 
 #include "reconstruct/fit/fit_scene.h"
-#include "reconstruct/fit/fitter.h"
 #include "reconstruct/fit/held_out.h"
 #include "reconstruct/fit/window_choice.h"
 #include "simulate/flock/model.h"
@@ -22,14 +21,15 @@
 namespace flocklift::internal {
 namespace {
 
-constexpr double kClearly = 0.9;                           // of E^2
-constexpr double kLead = 1;                                // of the flights [s]
-constexpr int kMostRows = 1500;                            // of each fit
-constexpr double kRadii[] = {0.4, 0.55, 0.75, 1, 1.4, 2};  // of the model's d_s
-constexpr double kRanges[] = {0.5, 0.7, 1.4, 2};           // of the model's d_v
-constexpr double kEdges[] = {0, 0.5, 1};                   // of d_s, of the edge's width
-constexpr double kBeside[] = {1.18, 1.09, 1.045};          // between a radius and the next, then
-constexpr double kBesideEdge[] = {0.25, 0.12, 0.06};
+constexpr double kClearly = 0.9;  // of E^2
+constexpr double kLead = 1;       // of the flights [s]
+constexpr int kMostRows = 1500;   // of each fit
+constexpr double kRadii[] = {0.4, 0.47, 0.55, 0.64, 0.75, 0.87, 1, 1.2, 1.4, 1.7, 2};  // of d_s
+constexpr double kRanges[] = {0.5, 0.7, 1.4, 2};          // of the model's d_v
+constexpr double kEdges[] = {0, 0.5, 1};                  // of d_s, of the edge's width
+constexpr double kBeside[] = {1.18, 1.09, 1.045, 1.022};  // between a radius and the next, then
+constexpr double kBesideEdge[] = {0.25, 0.12, 0.06, 0.03};
+constexpr std::size_t kChecked[] = {1, 2};  // of these, with the fit that is asked for
 
 struct Radii {
   double d_s = 0, d_v = 0, edge = 0;  // the edge as a share of d_s
@@ -47,6 +47,18 @@ Vec3d Middle(const Trajectories& flock) {
     }
   }
   return sum / std::max(count, 1.0);
+}
+
+// Each a step beside what `middle` is when its turn comes.
+template <typename TryOne>
+void TryBeside(std::size_t level, const Radii& middle, const TryOne& try_one) {
+  for (const double step : {-kBesideEdge[level], kBesideEdge[level]}) {
+    try_one({middle.d_s, middle.d_v, std::max(0.0, middle.edge + step)});
+  }
+  for (const double step : {1 / kBeside[level], kBeside[level]}) {
+    try_one({step * middle.d_s, middle.d_v, middle.edge});
+    try_one({middle.d_s, step * middle.d_v, middle.edge});
+  }
 }
 
 class Choice {
@@ -81,44 +93,43 @@ class Choice {
       problem.goal = GoalChoice::kGiven;
       problem.goal_position = *goal_;
     }
-    const FitResult fit = Fitter(quick_, problem, early_, fps_, seed_, threads_).Run({});
+    const FitResult fit = Run(quick_, problem, NoiseAssumed::kIsSmall);
     // It need not be sought again; where it was not found, that may be the radii's fault.
     if (tried_.size() == 1 && problem_.goal == GoalChoice::kWhenHeld) {
       goal_ = fit.parameters.goals.empty() ? Middle(early_) : fit.parameters.goals[0].position;
     }
     return found->second = ErrorOf(fit);
   }
+  FitResult Run(const FitOptions& options, const FitProblem& problem, NoiseAssumed noise) const {
+    Fitter fitter(options, problem, early_, fps_, seed_, threads_);
+    fitter.Assume(noise);
+    return fitter.Run({});
+  }
   // E^2 of a fit as the problem asks for it, by all rows.
-  double CheckedError(const Radii& radii, GoalChoice goal) const {
+  double CheckedError(const Radii& radii, GoalChoice goal, NoiseAssumed noise) const {
     FitProblem problem = ProblemWith(radii);
     problem.goal = goal;
-    return ErrorOf(Fitter(options_, problem, early_, fps_, seed_, threads_).Run({}));
+    return ErrorOf(Run(options_, problem, noise));
   }
   void Try(const Radii& radii) {
     if (Error(radii) < Error(best_)) best_ = radii;
   }
 
-  Radii Run(const Radii& start) {
-    best_ = start;
+  // The best found from each width of the edge: narrow ones ask for exact radii, and are missed
+  // beside the best of wide ones.
+  std::vector<Radii> Run(const Radii& start) {
     Error(start);
-    for (const double radius : kRadii) {
-      for (const double share : kEdges) {
-        Try({radius * start.d_s, start.d_v, share});
+    std::vector<Radii> found;
+    for (const double share : kEdges) {
+      best_ = {start.d_s, start.d_v, share};
+      for (const double radius : kRadii) Try({radius * start.d_s, start.d_v, share});
+      for (const double range : kRanges) Try({best_.d_s, range * start.d_v, share});
+      for (std::size_t k = 0; k < std::size(kBeside); ++k) {
+        TryBeside(k, best_, [this](const Radii& radii) { Try(radii); });
       }
+      if (std::find(found.begin(), found.end(), best_) == found.end()) found.push_back(best_);
     }
-    for (const double range : kRanges) {
-      Try({best_.d_s, range * start.d_v, best_.edge});
-    }
-    for (std::size_t k = 0; k < std::size(kBeside); ++k) {
-      for (const double step : {-kBesideEdge[k], kBesideEdge[k]}) {
-        Try({best_.d_s, best_.d_v, std::max(0.0, best_.edge + step)});
-      }
-      for (const double step : {1 / kBeside[k], kBeside[k]}) {
-        Try({step * best_.d_s, best_.d_v, best_.edge});
-        Try({best_.d_s, step * best_.d_v, best_.edge});
-      }
-    }
-    return best_;
+    return found;
   }
 
   ModelSpec With(const Radii& radii) const {
@@ -162,41 +173,62 @@ class Choice {
 
 }  // namespace
 
-FitProblem ChooseRadii(const FitOptions& options, const FitProblem& problem,
-                       const Trajectories& trajectories, double fps, std::uint64_t seed,
-                       int threads, std::vector<std::string>* notes) {
+RadiusChoice ChooseRadii(const FitOptions& options, const FitProblem& problem,
+                         const Trajectories& trajectories, double fps, std::uint64_t seed,
+                         int threads) {
+  RadiusChoice chosen{.problem = problem, .notes = {}};
   const ModelSpec complete = CompleteModel(problem.model);
   const auto& defaults = complete.parameters;
   if (!defaults.contains("d_s") || !defaults.contains("d_v") || !defaults.contains("taper") ||
       !(defaults.at("d_s") > 0)) {
-    return problem;
+    return chosen;
   }
   Choice choice(options, problem, trajectories, fps, seed, threads);
   for (const char* name : {"d_s", "d_v", "taper"}) {
-    if (!choice.IsOpen(name)) return problem;  // somebody knows
+    if (!choice.IsOpen(name)) return chosen;  // somebody knows
   }
   const double d_s = defaults.at("d_s");
   const Radii start{d_s, defaults.at("d_v"), defaults.at("taper") / d_s};
-  const Radii best = choice.Run(start);
-  if (!(choice.Error(best) < kClearly * choice.Error(start))) return problem;
-  const double by_model = choice.CheckedError(start, problem.goal);
-  double by_choice = choice.CheckedError(best, problem.goal);
-  FitProblem better = problem;
-  if (problem.goal == GoalChoice::kWhenHeld && !(by_choice < kClearly * by_model)) {
-    better.goal = GoalChoice::kSought;  // the quick fits had one
-    by_choice = choice.CheckedError(best, better.goal);
+  const std::vector<Radii> found = choice.Run(start);
+  const double by_model = choice.CheckedError(start, problem.goal, NoiseAssumed::kMayLast);
+  double least = kClearly * by_model;
+  std::optional<Radii> best;
+  const auto check = [&](const Radii& radii, GoalChoice goal, NoiseAssumed noise) {
+    const double error = choice.CheckedError(radii, goal, noise);
+    if (!(error < least)) return;
+    least = error;
+    best = radii;
+    chosen.problem.goal = goal;
+    chosen.noise = noise;
+  };
+  constexpr NoiseAssumed kEither[] = {NoiseAssumed::kMayLast, NoiseAssumed::kIsNew};
+  // The quick fits had a goal.
+  for (const GoalChoice goal : {problem.goal, GoalChoice::kSought}) {
+    for (const Radii& radii : found) {
+      for (const NoiseAssumed noise : kEither) check(radii, goal, noise);
+    }
+    if (best || problem.goal != GoalChoice::kWhenHeld) break;
   }
-  if (!(by_choice < kClearly * by_model)) return problem;
-  better.model = choice.With(best);
-  const ModelSpec& chosen = better.model;
+  if (!best) return chosen;
+  for (const std::size_t level : kChecked) {
+    TryBeside(level, *best, [&](const Radii& radii) {
+      for (const NoiseAssumed noise : kEither) check(radii, chosen.problem.goal, noise);
+    });
+  }
+  chosen.problem.model = choice.With(*best);
   for (const char* name : {"d_s", "d_v", "taper"}) {
-    if (chosen.parameters.at(name) == defaults.at(name)) continue;
-    notes->push_back(
+    const double value = chosen.problem.model.parameters.at(name);
+    if (value == defaults.at(name)) continue;
+    chosen.notes.push_back(
         fmt::format("{} is {:.3g} instead of the model's {:.3g}: so the motion is "
                     "foreseen best",
-                    name, chosen.parameters.at(name), defaults.at(name)));
+                    name, value, defaults.at(name)));
   }
-  return better;
+  if (chosen.noise == NoiseAssumed::kIsNew) {
+    chosen.notes.emplace_back(
+        "what the model leaves over counts as new in every frame: so the motion is foreseen best");
+  }
+  return chosen;
 }
 
 }  // namespace flocklift::internal

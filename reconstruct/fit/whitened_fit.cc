@@ -69,7 +69,7 @@ WhitenedFit SolveWhitened(const WhiteningOptions& options, const MotionRows& row
   if (fit.IsUsable() && options.sight) fit.depth_variance = DepthVariance(white, theta, depth_sd);
   fit.regression = Leading(fit.regression, rows.terms, theta);
   if (!fit.IsUsable()) return fit;
-  if (!options.lagged) return fit;
+  if (!options.lagged || !options.memory) return fit;
 
   const int lag = 2 * rows.window + 3;
   std::vector<Vec3d> u = Unexplained(rows, fit.regression.estimate, options.own_speed);

@@ -30,6 +30,7 @@ namespace flocklift {
 
 struct WhiteningOptions {
   bool lagged = true;          // false: plain least squares of y on X, biased
+  bool memory = true;          // may u last?
   bool frame_effects = false;  // then the mean c counts as 0: it could not be told apart
   bool own_speed = false;      // take out the c of each animal
   int stride = 1;              // uses the frames that it divides

@@ -10,7 +10,6 @@
 #include <unordered_map>
 
 #include "reconstruct/fit/fit_scene.h"
-#include "reconstruct/fit/fitter.h"
 #include "simulate/flock/engine.h"
 
 namespace flocklift::internal {
@@ -91,7 +90,7 @@ FlownErrors FlyOn(const Parameters& parameters, const Trajectories& trajectories
   return {std::sqrt(model / count), std::sqrt(straight_on / count)};
 }
 
-int ChooseWindowByFlight(const FitOptions& options, const FitProblem& problem,
+int ChooseWindowByFlight(const FitOptions& options, const RadiusChoice& choice,
                          const Trajectories& trajectories, double fps, std::uint64_t seed,
                          int threads) {
   const FrameSpan span = SpanOf(trajectories);
@@ -102,13 +101,15 @@ int ChooseWindowByFlight(const FitOptions& options, const FitProblem& problem,
   // The error of the fit over a window, and the window.
   const auto error = [&](int* window) {
     quick.window = *window;
-    const FitResult fit = Fitter(quick, problem, trajectories, fps, seed, threads).Run({});
+    Fitter fitter(quick, choice.problem, trajectories, fps, seed, threads);
+    fitter.Assume(choice.noise);
+    const FitResult fit = fitter.Run({});
     const bool flies = fit.IsUsable() && fit.method == FitMethod::kErrorsInVariables;
     if (*window == 0) *window = flies ? fit.window : 0;
     if (!flies) return std::numeric_limits<double>::infinity();
     try {
       return FlyOn(fit.parameters, trajectories, fps, options.substeps, kLead,
-                   SurroundingsOf(problem))
+                   SurroundingsOf(choice.problem))
           .model;
     } catch (const std::runtime_error&) {
       return std::numeric_limits<double>::infinity();  // it flew apart

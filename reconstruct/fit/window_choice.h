@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "reconstruct/fit/fit.h"
+#include "reconstruct/fit/radius_choice.h"
 #include "reconstruct/fit/term_surroundings.h"
 
 namespace flocklift::internal {
@@ -31,8 +32,9 @@ struct FlownErrors {
 FlownErrors FlyOn(const Parameters& parameters, const Trajectories& trajectories, double fps,
                   int substeps, double lead, const TermSurroundings& around = {});
 
-// 0 where there is no choice: the fit is not by errors in variables.
-int ChooseWindowByFlight(const FitOptions& options, const FitProblem& problem,
+// Of the fit with the radii and the noise of `choice`. 0 where there is no choice: the fit is not
+// by errors in variables.
+int ChooseWindowByFlight(const FitOptions& options, const RadiusChoice& choice,
                          const Trajectories& trajectories, double fps, std::uint64_t seed,
                          int threads);
 

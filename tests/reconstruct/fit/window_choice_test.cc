@@ -57,7 +57,8 @@ TEST(WindowChoice, FliesNoWorse) {
   problem.model.parameters["d_s"] = 2;
   FitOptions options;
   options.depth_draws = 0;
-  const int chosen = internal::ChooseWindowByFlight(options, problem, seen, scene.fps, 1, 1);
+  const int chosen = internal::ChooseWindowByFlight(options, {.problem = problem, .notes = {}},
+                                                    seen, scene.fps, 1, 1);
   ASSERT_GT(chosen, 0);
   const FitResult by_flight = FitModel(options, problem, seen, scene.fps, 1, 1);
   EXPECT_EQ(by_flight.window, chosen);
