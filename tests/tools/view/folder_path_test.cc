@@ -64,7 +64,9 @@ TEST(PlainFileName, TakesNamesAndNoPaths) {
                            "a\\b.toml", "\xc3\xa4.toml", "a:b.toml"}) {
     EXPECT_FALSE(IsPlainFileName(name, ".toml")) << name;
   }
-  EXPECT_FALSE(IsPlainFileName(std::string(200, 'a') + ".toml", ".toml"));
+  std::string long_name(200, 'a');
+  long_name += ".toml";
+  EXPECT_FALSE(IsPlainFileName(long_name, ".toml"));
 }
 
 }  // namespace

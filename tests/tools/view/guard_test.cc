@@ -12,10 +12,14 @@ namespace {
 
 const char* const kToken = "0123456789abcdef0123456789abcdef";
 
+std::string Around(std::string before, const char* after) {
+  before += kToken;
+  before += after;
+  return before;
+}
+
 RequestHead Good() {
-  return {.method = "GET",
-          .path = std::string("/") + kToken + "/api/session",
-          .hosts = {"127.0.0.1:8123"}};
+  return {.method = "GET", .path = Around("/", "/api/session"), .hosts = {"127.0.0.1:8123"}};
 }
 
 int StatusOf(const RequestHead& head) {
@@ -33,7 +37,7 @@ TEST(Guard, LetsTheOwnPagePass) {
   EXPECT_EQ(StatusOf(named), 200);
   named.fetch_site = "none";  // typed by the person
   EXPECT_EQ(StatusOf(named), 200);
-  EXPECT_EQ(Guard(kToken, 8123).Address(), std::string("http://127.0.0.1:8123/") + kToken + "/");
+  EXPECT_EQ(Guard(kToken, 8123).Address(), Around("http://127.0.0.1:8123/", "/"));
   EXPECT_EQ(Guard(kToken, 8123).Below(Good().path), "/api/session");
 }
 
