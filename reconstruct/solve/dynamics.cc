@@ -112,7 +112,7 @@ struct Test {
 
   // Small flocks have few pieces in one fold. No sighting is hidden twice.
   bool WantsMore(int folds, double share) const {
-    constexpr std::size_t kEnough = 80;
+    constexpr std::size_t kEnough = 60;
     return errors.size() < kEnough && (folds + 1) * share <= 1 + 1e-9;
   }
   void AddBatch(const HiddenSightings& hidden, const WindowToRefine& masked) {

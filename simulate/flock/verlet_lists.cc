@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kMoveMargin = 1.001;   // against rounding
 constexpr std::size_t kLanes = 8;       // taken together, which compilers know how to do
+constexpr std::size_t kFewest = 512;    // animals, below which sorting takes no time
 constexpr double kLeastSteps = 8;       // that lists must last to be worth their making
 constexpr double kMostNeighbours = 96;  // on average, of lists that are
 
@@ -171,7 +172,7 @@ void VerletLists<T>::Update(const NearReach<T>& reach, const KernelVariant* kern
 template <typename T>
 bool VerletLists<T>::UpdateIfWorth(const NearReach<T>& reach, double dt,
                                    const KernelVariant* kernel, ThreadPool* pool, Herd<T>* herd) {
-  if (herd->size() == 0) return false;
+  if (herd->size() < kFewest) return false;
   if (!Hold(reach, kernel, pool, herd->now)) {
     listed_ = {T(-1), T(-1)};
     const Bodies<T>& now = herd->now;

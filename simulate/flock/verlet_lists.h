@@ -37,7 +37,8 @@ class VerletLists {
   void Update(const NearReach<T>& reach, const KernelVariant* kernel, ThreadPool* pool,
               Herd<T>* herd);
   // The same, but new lists are made only where they should last for several steps of `dt` [s], at
-  // the velocities of now, and are not long. Otherwise there are none, and the herd's order is any.
+  // the velocities of now, and are not long; not for a few hundred animals. Otherwise there are
+  // none, and the herd's order is any.
   bool UpdateIfWorth(const NearReach<T>& reach, double dt, const KernelVariant* kernel,
                      ThreadPool* pool, Herd<T>* herd);
 

@@ -163,7 +163,7 @@ TEST(VerletLists, AreMadeWhereTheyAreWorthIt) {
 TEST(VerletLists, AreForgottenWhereTheyAreNotWorthIt) {
   ThreadPool pool(1);
   const NearReach<double> reach{1, 0};
-  Herd<double> herd = HerdOf<double>(RandomFlock("", 300, {5, 5, 5}, 37));
+  Herd<double> herd = HerdOf<double>(RandomFlock("", 600, {6, 6, 6}, 37));
   VerletLists<double> lists(0.2);
   EXPECT_TRUE(lists.UpdateIfWorth(reach, 1e-9, nullptr, &pool, &herd));
   herd.now.x[0] += 1;
