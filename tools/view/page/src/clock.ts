@@ -37,7 +37,7 @@ export class Clock {
       if (state.frame !== before.frame && Math.floor(this.exact) !== state.frame) {
         this.exact = state.frame;
       }
-      // Not with the next picture only: what is asked for now comes sooner.
+      // At once: with the next picture it would be asked for later.
       if (state.frame !== before.frame && this.has(this.asked)) this.ask(state.frame);
       if (state.playing && !before.playing) {
         this.last = performance.now();
