@@ -31,7 +31,13 @@ TEST(Background, DoesOneJobAfterAnother) {
   EXPECT_EQ(done, (std::vector<int>{0, 1, 2, 3, 4}));
 }
 
-TEST(Background, RestsWhileOthersAreWaitedFor) {
+// How often a job reports while others are waited for, and whether this thread saw to that without
+// being held up itself.
+struct Held {
+  int reports = 0;
+  bool always = true;
+};
+Held ReportsWhileHeld() {
   using Clock = std::chrono::steady_clock;
   Background background;
   std::promise<void> started;
@@ -43,16 +49,31 @@ TEST(Background, RestsWhileOthersAreWaitedFor) {
     for (; !is_over; ++reports) alive(0, 1);
     counted.set_value(reports);
   });
-  background.GiveWay();
-  started.get_future().wait();
-  // As often as it may, it goes on once in so long a rest; at its own pace it would a million
-  // times.
-  for (const auto end = Clock::now() + 3 * Background::kLongestRest; Clock::now() < end;) {
+  Held held;
+  Clock::time_point last = Clock::now();
+  const auto give_way = [&] {
     background.GiveWay();
+    held.always = held.always && Clock::now() - last < Background::kQuiet;
+    last = Clock::now();
+  };
+  give_way();
+  started.get_future().wait();
+  for (const auto end = Clock::now() + 3 * Background::kLongestRest; Clock::now() < end;) {
+    give_way();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   is_over = true;
-  EXPECT_LE(counted.get_future().get(), 5);
+  give_way();
+  held.reports = counted.get_future().get();
+  return held;
+}
+
+// As often as it may, it goes on once in so long a rest; at its own pace it would a million times.
+TEST(Background, RestsWhileOthersAreWaitedFor) {
+  Held held = ReportsWhileHeld();
+  for (int again = 0; again < 20 && !held.always; ++again) held = ReportsWhileHeld();
+  ASSERT_TRUE(held.always) << "a machine too busy to tell";
+  EXPECT_LE(held.reports, 5);
 }
 
 TEST(Background, GoesOnOnceItIsQuiet) {
