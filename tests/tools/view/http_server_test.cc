@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <chrono>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 #include <thread>
 
@@ -30,8 +30,9 @@ using testing::Not;
 using testing::StartsWith;
 
 // Sends bytes as they are, and returns all that comes back until the other side closes or is silent
-// for a while.
-std::string Talk(int port, const std::string& bytes, int silence_ms = 1500) {
+// for a while. `heard` is told what has come so far, whenever more has.
+std::string Talk(int port, const std::string& bytes, int silence_ms = 20'000,
+                 const std::function<void(const std::string&)>& heard = {}) {
   const int s = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -53,6 +54,7 @@ std::string Talk(int port, const std::string& bytes, int silence_ms = 1500) {
   char piece[4096];
   for (ssize_t n = 0; (n = recv(s, piece, sizeof piece, 0)) > 0;) {
     answer.append(piece, static_cast<std::size_t>(n));
+    if (heard) heard(answer);
   }
   close(s);
   return answer;
@@ -241,14 +243,16 @@ TEST_F(Server, StreamsTheLatestNews) {
   bus_.Publish("solve", {{"done", 1}});
   bus_.Publish("solve", {{"done", 2}});
   bus_.Publish("data", {{"version", 7}});
-  std::thread later([this] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    bus_.Publish("solve", {{"done", 3}});
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    server_.Stop();
-  });
-  const std::string answer = Get("/api/events");
-  later.join();
+  int told = 2;
+  const std::string answer = Talk(
+      server_.port(), Head("GET", "/api/events") + "\r\n", 20'000, [&](const std::string& so_far) {
+        const auto has = [&](const char* news) { return so_far.find(news) != std::string::npos; };
+        if (told == 2 && has("{\"version\":7}")) {
+          told = 3;
+          bus_.Publish("solve", {{"done", 3}});
+        }
+        if (has("{\"done\":3}")) server_.Stop();
+      });
   EXPECT_THAT(answer, HasSubstr("text/event-stream"));
   EXPECT_THAT(answer, Not(HasSubstr("{\"done\":1}")));
   const auto second = answer.find("event: solve\ndata: {\"done\":2}\n\n");
