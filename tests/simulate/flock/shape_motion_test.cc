@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -71,16 +72,22 @@ TEST(ShapeMotion, FormsTheShapeAndStaysInMotion) {
   EXPECT_LE(figures.speed, 0.75 + 1e-5);
   // Where only the shape acts, against drag, they stick to it.
   const Figures stuck = Settled(BallWorld(), {.alpha = 0, .drag = 2});
+  RecordProperty("stuck_speed_mm_s", static_cast<int>(1000 * stuck.speed));
   EXPECT_LT(stuck.speed, 0.3 * figures.speed);
   EXPECT_LT(stuck.error, figures.error);
 }
 
 TEST(ShapeMotion, ErrorGrowsWithAlphaAndFallsWithTheDistanceForce) {
   const World world = BallWorld();
-  const double at_7 = Settled(world, {.alpha = 0.7}).error;
-  EXPECT_LT(Settled(world, {.alpha = 0.4}).error, at_7);
-  EXPECT_GT(Settled(world, {.alpha = 0.9}).error, at_7);
-  EXPECT_LT(Settled(world, {.w_dis = 16}).error, at_7);
+  const auto error = [&](const char* name, const ShapeParameters& p) {
+    const Figures figures = Settled(world, p);
+    RecordProperty(std::string(name) + "_mm", static_cast<int>(1000 * figures.error));
+    return figures.error;
+  };
+  const double at_7 = error("alpha_7", {.alpha = 0.7});
+  EXPECT_LT(error("alpha_4", {.alpha = 0.4}), at_7);
+  EXPECT_GT(error("alpha_9", {.alpha = 0.9}), at_7);
+  EXPECT_LT(error("w_dis_16", {.alpha = 0.7, .w_dis = 16}), at_7);
 }
 
 TEST(ShapeMotion, NeighboursAreAboutAsManyAsTheCap) {
