@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "simulate/core/parallel_for.h"
@@ -40,8 +41,11 @@ struct NearReach {
 // n of animal k is places[8 (begin[k / 8] + n) + k % 8]. Up to the longest of the eight, lists are
 // filled with nobody: the number of a row behind the last animal's.
 struct NearLists {
-  std::vector<std::uint32_t> begin;   // one more than there are eights
-  std::vector<std::uint32_t> places;  // at least 8 begin.back(); the rest is room
+  explicit NearLists(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : places(memory) {}
+
+  std::vector<std::uint32_t> begin;        // one more than there are eights
+  std::pmr::vector<std::uint32_t> places;  // at least 8 begin.back(); the rest is room
 
   void Clear() { begin.assign(1, 0); }
 };

@@ -195,7 +195,8 @@ void VerletLists<T>::Make(const KernelVariant* kernel, ThreadPool* pool, const C
                           const Bodies<T>& bodies) {
   loaded_ = false;
   const auto n = static_cast<std::int64_t>(bodies.size());
-  chunks_.resize(static_cast<std::size_t>((n + kListGrain - 1) / kListGrain));
+  const auto chunks = static_cast<std::size_t>((n + kListGrain - 1) / kListGrain);
+  while (chunks_.size() < chunks) chunks_.emplace_back(&memory_);
   pool->For(0, n, kListGrain, [&](std::int64_t first, std::int64_t last) {
     NearLists& lists = chunks_[static_cast<std::size_t>(first / kListGrain)];
     lists.Clear();

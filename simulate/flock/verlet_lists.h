@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "simulate/core/large_pages.h"
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/state_archive.h"
 #include "simulate/flock/herd.h"
@@ -62,6 +63,7 @@ class VerletLists {
   NearReach<T> listed_{T(-1), T(-1)};  // what the lists hold; below 0: there are none
   std::vector<T> x_, y_, z_;           // where the animals were then, in the herd's order [m]
   bool loaded_ = false;                // all but the lists themselves
+  LargePages memory_;                  // of the lists
   std::vector<NearLists> chunks_;
   std::vector<BodyRow<T>> rows_;
 };
