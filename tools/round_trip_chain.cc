@@ -13,7 +13,7 @@
 #include "simulate/core/io.h"
 #include "simulate/core/scene_io.h"
 #include "simulate/flock/load_scene.h"
-#include "simulate/flock/simulate_scene.h"
+#include "simulate/flock/population.h"
 #include "simulate/render/film.h"
 #include "simulate/synthetic.h"
 #include "tools/evaluate_files.h"

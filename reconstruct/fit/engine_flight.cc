@@ -11,7 +11,7 @@
 #include "reconstruct/fit/goal_groups.h"
 #include "simulate/core/check.h"
 #include "simulate/flock/morph_motion.h"
-#include "simulate/flock/simulate_scene.h"
+#include "simulate/flock/population.h"
 
 namespace flocklift::internal {
 namespace {

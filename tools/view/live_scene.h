@@ -22,7 +22,7 @@
 
 #include "simulate/core/scene.h"
 #include "simulate/flock/engine.h"
-#include "simulate/flock/simulate_scene.h"
+#include "simulate/flock/population.h"
 
 namespace flocklift {
 

@@ -16,6 +16,7 @@
 #include "reconstruct/fit/flock_terms.h"
 #include "simulate/core/check.h"
 #include "simulate/core/model_terms.h"
+#include "simulate/flock/engine.h"
 #include "tests/reconstruct/fit/flocks.h"
 
 namespace flocklift {

@@ -17,7 +17,7 @@
 
 #include "simulate/core/scene_io.h"
 #include "simulate/flock/engine.h"
-#include "simulate/flock/simulate_scene.h"
+#include "simulate/flock/population.h"
 
 namespace flocklift {
 namespace {

@@ -19,7 +19,7 @@
 #include "simulate/flock/engine.h"
 #include "simulate/flock/kernels/swarm_kernel.h"
 #include "simulate/flock/minimum_distance.h"
-#include "simulate/flock/simulate_scene.h"
+#include "simulate/flock/population.h"
 
 namespace flocklift {
 namespace {
