@@ -62,11 +62,21 @@ export async function serve(program, args) {
   };
 }
 
-// A page whose complaints are collected: they are faults of the test at its end.
-export async function openPage(browser, address, options = {}) {
+// An empty window.
+export async function openWindow(browser, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...options });
   const page = await context.newPage();
   page.setDefaultTimeout(120000);
+  return page;
+}
+
+// A page whose complaints are collected: they are faults of the test at its end.
+export async function openPage(browser, address, options = {}) {
+  return loadPage(await openWindow(browser, options), address);
+}
+
+// The same in a window that is open.
+export async function loadPage(page, address) {
   const complaints = [];
   page.on('console', (message) => {
     if (message.type() === 'error') complaints.push(message.text());
@@ -79,7 +89,7 @@ export async function openPage(browser, address, options = {}) {
     }
   });
   await page.goto(address);
-  return { page, context, complaints };
+  return { page, context: page.context(), complaints };
 }
 
 // Asks again until the answer is true; the test's own time limit is ctest's.
