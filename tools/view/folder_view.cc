@@ -40,7 +40,11 @@ class FolderView::Impl {
         threads_(threads),
         told_animals_(data_.animal_count()),
         reader_(&data_, &mutex_, &bus_),
-        solver_({.progress = [this](auto job, auto done, auto total) { Tell(job, done, total); },
+        solver_({.accepted =
+                     [this](auto job) {
+                       bus_.Publish("solve", {{"job", job}, {"state", "accepted"}});
+                     },
+                 .progress = [this](auto job, auto done, auto total) { Tell(job, done, total); },
                  .finished = [this](auto job, ReconstructResult&& result,
                                     double seconds) { Finished(job, std::move(result), seconds); },
                  .failed =

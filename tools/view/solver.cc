@@ -34,6 +34,7 @@ std::int64_t Solver::Start(Job job) {
   {
     const std::lock_guard lock(mutex_);
     number = ++last_;
+    listener_.accepted(number);
     next_ = std::move(job);
     wanted_ = number;
   }

@@ -26,9 +26,11 @@ class Solver {
   // The work; may throw, and lets what the progress throws pass.
   using Job = std::function<ReconstructResult(const Progress&)>;
 
-  // What becomes of a job, told from the solver's thread. A job that was cancelled tells nothing
-  // more.
+  // What becomes of a job: that it was accepted is told before Start returns, which may be while
+  // the one before it still stops; the rest from the solver's thread. A job that was cancelled
+  // tells nothing more. None may call the solver.
   struct Listener {
+    std::function<void(std::int64_t job)> accepted;
     std::function<void(std::int64_t job, std::int64_t done, std::int64_t total)> progress;
     std::function<void(std::int64_t job, ReconstructResult&& result, double seconds)> finished;
     std::function<void(std::int64_t job, const std::string& reason)> failed;

@@ -16,12 +16,17 @@ namespace {
 struct News {
   std::mutex mutex;
   std::condition_variable changed;
-  std::vector<std::int64_t> finished;
+  std::vector<std::int64_t> accepted, finished;
   std::vector<std::string> failed;
   std::atomic<int> reports = 0;
 
   Solver::Listener Listener() {
-    return {.progress = [this](auto, auto, auto) { ++reports; },
+    return {.accepted =
+                [this](std::int64_t job) {
+                  const std::lock_guard lock(mutex);
+                  accepted.push_back(job);
+                },
+            .progress = [this](auto, auto, auto) { ++reports; },
             .finished =
                 [this](std::int64_t job, ReconstructResult&&, double seconds) {
                   EXPECT_GE(seconds, 0);
@@ -64,6 +69,25 @@ TEST(Solver, ANewJobCancelsTheOneBefore) {
   EXPECT_EQ(news.finished, (std::vector<std::int64_t>{2}));
   EXPECT_TRUE(news.failed.empty());
   EXPECT_GE(news.reports, 2);  // each job tells at once that it runs
+}
+
+TEST(Solver, AcceptsAJobBeforeTheOneBeforeItStops) {
+  News news;
+  std::promise<void> runs, ends;
+  Solver solver(news.Listener());
+  solver.Start([&](const Progress& progress) {
+    runs.set_value();
+    ends.get_future().wait();  // heavy work, in which no progress is told
+    progress(1, 1);
+    return ReconstructResult{};
+  });
+  runs.get_future().wait();
+  solver.Start([](const Progress&) { return ReconstructResult{}; });
+  EXPECT_EQ(news.accepted, (std::vector<std::int64_t>{1, 2}));
+  EXPECT_TRUE(news.finished.empty());
+  ends.set_value();
+  news.AwaitEvents(1);
+  EXPECT_EQ(news.finished, (std::vector<std::int64_t>{2}));
 }
 
 TEST(Solver, TellsAFailureAndGoesOn) {

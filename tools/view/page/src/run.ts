@@ -106,6 +106,7 @@ export class Run {
     this.tell();
   }
   setSolve(news: SolveNews): void {
+    if ((news.job ?? Infinity) < (this.solve?.job ?? 0)) return; // the last word of a cancelled one
     this.solve = news;
     this.tell();
   }

@@ -144,12 +144,13 @@ export function SolvePanel({ run }: { run: Run }) {
         <progress max="1" value={news?.state === 'running' ? share : news?.state === 'done' ? 1 : 0} />
         <span>
           {!news && 'move a slider: the flock is solved again'}
-          {news?.state === 'running' && `solving … ${Math.round(100 * share)} %`}
+          {news?.state === 'accepted' && 'accepted, waits for the solve before it to stop'}
+          {news?.state === 'running' && (news.total ? `solving … ${Math.round(100 * share)} %` : 'setting up the equations')}
           {news?.state === 'done' && `solved in ${news.seconds!.toFixed(2)} s`}
           {news?.state === 'failed' && `failed: ${news.text}`}
           {news?.state === 'cancelled' && 'cancelled'}
         </span>
-        {news?.state === 'running' && (
+        {(news?.state === 'accepted' || news?.state === 'running') && (
           <button onClick={() => void post('api/cancel')}>cancel</button>)}
       </div>
       <div class="buttons">

@@ -122,7 +122,7 @@ export interface Suspect {
 
 export interface SolveNews {
   job?: number;
-  state: 'running' | 'done' | 'failed' | 'cancelled';
+  state: 'accepted' | 'running' | 'done' | 'failed' | 'cancelled';
   done?: number;
   total?: number;
   seconds?: number;
