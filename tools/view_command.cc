@@ -19,6 +19,7 @@
 #include "tools/view/export_page.h"
 #include "tools/view/folder_view.h"
 #include "tools/view/http_server.h"
+#include "tools/view/kept_memory.h"
 #include "tools/view/page_files.h"
 #include "tools/view/scene_view.h"
 
@@ -80,6 +81,7 @@ void RunView(const ViewCommand& command) {
     throw std::runtime_error("there is no page: " + std::string(page.missing));
   if (!command.out_page.empty()) return ExportPage(command, page);
   SignalWait signals;  // before any thread starts
+  KeepFreedMemory();
   if (!fs::exists(command.what)) {
     throw InputError(command.what.string(), 0, "no such folder or scene",
                      "give the folder of a run, or a scene file");
