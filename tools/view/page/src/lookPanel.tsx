@@ -86,7 +86,7 @@ export function LookPanel({ run }: { run: Run }) {
             onInput={(e) => store.set({ birdScale: Number(e.currentTarget.value) })} />
           <output>{state.birdScale.toFixed(1)}×</output>
         </label>
-        <label class="row wide">compare with
+        <label class="row wide"><span class="one-line">compare with</span>
           <select value={state.ghost}
             onChange={(e) => store.set({ ghost: e.currentTarget.value as Ghost })}>
             <option value="none">nothing</option>
