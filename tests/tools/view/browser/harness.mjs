@@ -55,6 +55,7 @@ export async function serve(program, args) {
   });
   return {
     address,
+    pid: child.pid,
     async stop() {
       child.kill('SIGINT');
       return ended;
