@@ -164,6 +164,21 @@ await until('the command line', async () => /--method cobyla .*--d-near 50 --d-f
   await page.locator('.line code').innerText()));
 say('a slider changes the depths');
 
+// A solve is told of from when it is accepted, and what is left of the one before changes nothing.
+const tell = (by, news) => page.evaluate(([more, what]) => {
+  const { run } = window.flocklift;
+  window.ended ??= run.solve;
+  run.setSolve({ ...what, job: window.ended.job + more });
+}, [by, news]);
+await tell(1, { state: 'accepted' });
+await page.getByText('waits for the solve before it').waitFor();
+await tell(0, { state: 'running', done: 1, total: 2 });
+assert.equal(await page.evaluate(() => window.flocklift.run.solve.state), 'accepted');
+await tell(1, { state: 'running', done: 0, total: 0 });
+await page.getByText('setting up the equations').waitFor();
+await page.evaluate(() => window.flocklift.run.setSolve({ ...window.ended, job: window.ended.job + 1 }));
+say('a solve is told of from the first');
+
 // Keys are heard from a slider's field too, and two animals are chosen without the mouse.
 const mode = () => page.evaluate(() => window.flocklift.run.store.get().mode);
 await page.locator('[data-knob="d-far"] input').focus();
