@@ -11,7 +11,7 @@
 namespace flocklift {
 
 // From now on the process keeps what it frees, up to 64 MiB for each thread's part of the heap;
-// blocks from 4 MiB on are given back as before.
+// blocks from 4 MiB on are given back as before. Call it before there are threads.
 void KeepFreedMemory();
 
 }  // namespace flocklift
