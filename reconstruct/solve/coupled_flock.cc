@@ -25,18 +25,22 @@ CoupledFlock::CoupledFlock(const BatchModel& model, std::vector<Bird>* birds,
   Eigen::Index unknowns = 0;
   for (std::size_t i = 0; i < birds_.size(); ++i) {
     const Bird& bird = birds_[i];
-    first_line_.push_back(lines);
+    first_of_bird_.push_back(lines);
     lines += static_cast<std::size_t>(bird.knots);
     place_.push_back(unknowns);
     unknowns += bird.unknowns() + kOwnUnknowns;
     const std::size_t end = static_cast<std::size_t>(bird.first_knot + bird.knots);
     if (present_.size() < end) present_.resize(end);
     for (int k = 0; k < bird.knots; ++k) {
-      present_[static_cast<std::size_t>(bird.first_knot + k)].push_back(static_cast<int>(i));
+      present_[static_cast<std::size_t>(bird.first_knot + k)].push_back(i);
     }
   }
   place_.push_back(unknowns);
   lines_.resize(lines);
+  line_of_.resize(lines);
+  ForEachLine([this](std::size_t i, int k, std::size_t line) {
+    line_of_[first_of_bird_[i] + static_cast<std::size_t>(k)] = line;
+  });
   Vec3d sum;
   for (const Knot& s : States()) sum += s.x;
   usual_log_speed_ = shared_[kFlockLogSpeed];
@@ -51,13 +55,12 @@ CoupledFlock::CoupledFlock(const BatchModel& model, std::vector<Bird>* birds,
 
 std::vector<CoupledFlock::Knot> CoupledFlock::States() const {
   std::vector<Knot> states;
-  for (const Bird& bird : birds_) {
-    for (int k = 0; k < bird.knots; ++k) {
-      const auto p = PointOf(&bird.path[3 * static_cast<std::size_t>(k)], 1 / model_.knot_interval,
-                             CameraAt(bird, k));
-      states.push_back({p.x, p.v, p.z * p.a_over_z, p.z});
-    }
-  }
+  states.reserve(lines_.size());
+  ForEachLine([&](std::size_t i, int k, std::size_t) {
+    const auto p = PointOf(&birds_[i].path[3 * static_cast<std::size_t>(k)],
+                           1 / model_.knot_interval, CameraAt(birds_[i], k));
+    states.push_back({p.x, p.v, p.z * p.a_over_z, p.z});
+  });
   return states;
 }
 
@@ -75,14 +78,13 @@ void CoupledFlock::Relinearize() {
   const std::vector<Knot> states = States();
   const double reach = forces.Reach() + kMargin;
   may_hear_.assign(lines_.size(), {});
-  for (std::size_t g = 0; g < present_.size(); ++g) {
-    std::vector<std::size_t> order;
-    for (const int animal : present_[g]) {
-      const auto i = static_cast<std::size_t>(animal);
-      order.push_back(first_line_[i] + g - static_cast<std::size_t>(birds_[i].first_knot));
-    }
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return states[a].x.x < states[b].x.x; });
+  std::uint32_t line = 0;
+  for (const std::vector<std::size_t>& present : present_) {
+    std::vector<std::uint32_t> order(present.size());
+    for (std::uint32_t& next : order) next = line++;
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return states[a].x.x < states[b].x.x;
+    });
     for (std::size_t a = 0; a < order.size(); ++a) {
       for (std::size_t b = a + 1; b < order.size(); ++b) {
         const Vec3d dx = states[order[b]].x - states[order[a]].x;
@@ -93,7 +95,7 @@ void CoupledFlock::Relinearize() {
       }
     }
   }
-  for (std::vector<std::size_t>& list : may_hear_) std::sort(list.begin(), list.end());
+  for (std::vector<std::uint32_t>& list : may_hear_) std::sort(list.begin(), list.end());
 }
 
 void CoupledFlock::Hear(std::size_t line, double reach, const std::vector<Knot>& states,
@@ -101,7 +103,7 @@ void CoupledFlock::Hear(std::size_t line, double reach, const std::vector<Knot>&
   heard->offsets.clear();
   heard->lines.clear();
   const Knot& own = states[line];
-  for (const std::size_t other : may_hear_[line]) {
+  for (const std::uint32_t other : may_hear_[line]) {
     const Vec3d dx = states[other].x - own.x;
     if (Dot(dx, dx) > reach * reach) continue;
     heard->offsets.push_back({dx, states[other].v - own.v});
@@ -121,6 +123,7 @@ double CoupledFlock::Whitening(int knot) const {
 double CoupledFlock::Cost() const {
   const std::vector<Knot> states = States();
   const double rho = noise.Correlation(model_.knot_interval), reach = forces.Reach();
+  PairForce pairs(forces);
   Heard heard;
   double cost = SharedPriors(model_, shared_, nullptr, nullptr) + ForcePriors(nullptr, nullptr);
   for (std::size_t i = 0; i < birds_.size(); ++i) {
@@ -129,11 +132,11 @@ double CoupledFlock::Cost() const {
     });
     Vec3d before;
     for (int k = 0; k < birds_[i].knots; ++k) {
-      const std::size_t line = first_line_[i] + static_cast<std::size_t>(k);
+      const std::size_t line = LineOf(i, k);
       const Knot& s = states[line];
       const double time = (birds_[i].first_knot + k) * model_.knot_interval;
       Hear(line, reach, states, &heard);
-      const Vec3d force = PairForce(forces, heard.offsets, nullptr, nullptr) +
+      const Vec3d force = pairs(heard.offsets, nullptr, nullptr) +
                           SelfForce(forces, birds_[i].own[kOwnLogSpeed], time, s.x, s.v, nullptr);
       const Vec3d error = (birds_[i].reference_depth / s.z) * (s.a - force);
       const Vec3d row = Whitening(k) * (k == 0 ? error : error - rho * before);

@@ -18,6 +18,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -93,18 +95,36 @@ class CoupledFlock {
     Eigen::Matrix<double, 3, kForceScalars> by_forces;
     Eigen::Matrix3d by_target;
     Eigen::Vector3d weight{1, 1, 1};  // Huber's, of the whitened row that ends here
-    // What it hears ends here in near_ and far_: those with a derivative each by their (x, v), and
-    // those that have one in common, as all have that are well within the rules' edges.
-    std::size_t near_end = 0, far_end = 0;
-    ByOffset by_far;
+    // What it hears ends here in edge_ and inside_: those on a rule's edge, with a derivative each
+    // by their (x, v), and those well within the same rules' edges, which have one in common.
+    std::size_t edge_end = 0;
+    struct Inside {
+      std::size_t end = 0;
+      double x = 0, v = 0;  // times the unit matrix
+    };
+    std::array<Inside, 2> inside;
   };
   template <int Count>
   using Errors = std::vector<Eigen::Matrix<double, 3, Count>>;  // of every line
 
+  // Lines stand in the order of time, so that who hears each other is near in memory.
+  std::size_t LineOf(std::size_t bird, int knot) const {
+    return line_of_[first_of_bird_[bird] + static_cast<std::size_t>(knot)];
+  }
+  // Calls visit(animal, its knot, line) for all.
+  template <typename Visit>
+  void ForEachLine(const Visit& visit) const {
+    std::size_t line = 0;
+    for (std::size_t g = 0; g < present_.size(); ++g) {
+      for (const std::size_t i : present_[g]) {
+        visit(i, static_cast<int>(g) - birds_[i].first_knot, line++);
+      }
+    }
+  }
   std::vector<Knot> States() const;
   struct Heard {  // within reach of an animal at a knot, by increasing animal
     std::vector<Offset> offsets;
-    std::vector<std::size_t> lines;
+    std::vector<std::uint32_t> lines;
   };
   void Hear(std::size_t line, double reach, const std::vector<Knot>& states, Heard* heard) const;
   CameraMotion CameraAt(const Bird& bird, int knot) const;
@@ -115,7 +135,15 @@ class CoupledFlock {
 
   // coupled_rows.cc
   void Linearize();
-  void LinearizeLine(std::size_t bird, int knot, const std::vector<Knot>& states, double reach);
+  // What there is room for while lines are visited.
+  struct Scratch {
+    PairForce pairs;
+    Heard heard;
+    std::vector<ByOffset> by;
+    std::vector<std::size_t> zones;  // of line.inside
+  };
+  void LinearizeLine(std::size_t bird, int knot, const std::vector<Knot>& states, double reach,
+                     Scratch* scratch);
   ArrowSystem::Rows RowsOf(std::size_t bird, int knot) const;
 
   // coupled_system.cc: how the errors change with the unknowns, by the animal's own (border
@@ -136,19 +164,19 @@ class CoupledFlock {
   const BatchModel& model_;
   std::vector<Bird>& birds_;
   Eigen::VectorXd& shared_;
-  std::vector<std::size_t> first_line_;    // of every animal
-  std::vector<Eigen::Index> place_;        // of every animal's first unknown, then of the border
-  std::vector<std::vector<int>> present_;  // animals at every knot of the sequence
-  std::vector<std::vector<std::size_t>> may_hear_;  // lines, of every line
-  Eigen::VectorXd usual_;                           // unknowns of the forces of usual birds,
-  double usual_log_speed_ = 0;                      // which fly that fast
-  double separation_ = 1;                           // of theirs, below 1 held
-  std::optional<double> common_log_depth_;          // mean of the reference depths, held
+  std::vector<std::size_t> first_of_bird_, line_of_;  // place in the latter; animal by animal
+  std::vector<Eigen::Index> place_;  // of every animal's first unknown, then of the border
+  std::vector<std::vector<std::size_t>> present_;     // animals at every knot of the sequence
+  std::vector<std::vector<std::uint32_t>> may_hear_;  // lines, of every line
+  Eigen::VectorXd usual_;                             // unknowns of the forces of usual birds,
+  double usual_log_speed_ = 0;                        // which fly that fast
+  double separation_ = 1;                             // of theirs, below 1 held
+  std::optional<double> common_log_depth_;            // mean of the reference depths, held
   std::vector<Line> lines_;
-  std::vector<std::size_t> near_, far_;  // lines that every line hears
-  std::vector<ByOffset> by_near_;        // of its error, by (x, v) of each that is near
-  std::vector<ArrowSystem> animals_;     // each as if the others stood still
-  Eigen::MatrixXd priors_;               // of the border
+  std::vector<std::uint32_t> edge_, inside_;  // lines that every line hears
+  std::vector<ByOffset> by_edge_;             // of its error, by (x, v) of each on an edge
+  std::vector<ArrowSystem> animals_;          // each as if the others stood still
+  Eigen::MatrixXd priors_;                    // of the border
   Eigen::VectorXd gradient_, diagonal_;
   double damping_ = 0;
   Eigen::LLT<Eigen::MatrixXd> border_factor_;

@@ -54,11 +54,11 @@ Columns<CoupledFlock::kSamples> CoupledFlock::Draw(std::uint64_t seed) const {
       }
     });
     for (int k = 0; k < bird.knots; ++k) {
-      const std::size_t at = first_line_[i] + Index(k);
+      const std::size_t at = LineOf(i, k);
       for (int axis = 0; axis < 3; ++axis) {
         errors[at].row(axis) = Whitening(k) * std::sqrt(lines_[at].weight[axis]) * normals(rng);
       }
-      if (k > 0) errors[at - 1] -= rho * errors[at];
+      if (k > 0) errors[LineOf(i, k - 1)] -= rho * errors[at];
     }
   }
   PullOwn<kSamples>(errors, &pulled);
@@ -82,7 +82,7 @@ double CoupledFlock::EstimateNoise() {
   double squares = 0, variances = 0, count = 0;
   for (std::size_t i = 0; i < birds_.size(); ++i) {
     for (int k = 0; k < birds_[i].knots; k += stride) {
-      const std::size_t at = first_line_[i] + Index(k);
+      const std::size_t at = LineOf(i, k);
       variances += (changes[at] + heard[at]).squaredNorm() / kSamples;
       for (int axis = 0; axis < 3; ++axis) {
         const double e = Component(lines_[at].error, axis);

@@ -24,42 +24,50 @@ Eigen::Vector3d AsEigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 }  // namespace
 
 void CoupledFlock::LinearizeLine(std::size_t bird, int knot, const std::vector<Knot>& states,
-                                 double reach) {
+                                 double reach, Scratch* scratch) {
   const double time = (birds_[bird].first_knot + knot) * model_.knot_interval;
-  const std::size_t at = first_line_[bird] + Index(knot);
+  const std::size_t at = LineOf(bird, knot);
   Line& line = lines_[at];
-  Heard heard;
+  auto& [pairs, heard, by, zones] = *scratch;
   Hear(at, reach, states, &heard);
-  std::vector<ByOffset> by(heard.lines.size());
+  by.resize(heard.lines.size());
   PairUnknownsMatrix by_pair;
   SelfDerivatives self;
   const Knot& s = states[at];
-  const Vec3d force = PairForce(forces, heard.offsets, by.data(), &by_pair) +
+  const Vec3d force = pairs(heard.offsets, by.data(), &by_pair) +
                       SelfForce(forces, birds_[bird].own[kOwnLogSpeed], time, s.x, s.v, &self);
   const double factor = birds_[bird].reference_depth / s.z;
   line.error = factor * (s.a - force);
   Matrix36 by_own = self.by_state;
-  ByOffset all;
-  for (const ByOffset& b : by) all += b;
-  by_own.leftCols<3>() -= all.x;
-  by_own.rightCols<3>().diagonal().array() -= all.v;
-  const ByOffset* common = nullptr;
-  for (std::size_t n = 0; n < by.size(); ++n) {
-    for (std::size_t m = 0; m < n && common == nullptr; ++m) {
-      if (by[n] == by[m]) common = &by[m];
+  for (const ByOffset& b : by) {
+    by_own.leftCols<3>().diagonal().array() -= b.x;
+    if (b.on_edge()) by_own.leftCols<3>().noalias() -= b.across * b.along.transpose();
+    by_own.rightCols<3>().diagonal().array() -= b.v;
+  }
+  // Those who are too near to it are in one zone, the others in another.
+  constexpr std::size_t kZones = std::tuple_size_v<decltype(line.inside)>;
+  line.inside = {};
+  std::size_t known = 0;
+  zones.clear();
+  for (ByOffset& b : by) {
+    b = {-factor * b.x, -factor * b.v, -factor * b.across, b.along};
+    std::size_t zone = b.on_edge() ? kZones : 0;
+    while (zone < known && (line.inside[zone].x != b.x || line.inside[zone].v != b.v)) ++zone;
+    if (zone == known && known < kZones) line.inside[known++] = {.x = b.x, .v = b.v};
+    zones.push_back(zone);
+  }
+  for (std::size_t zone = 0; zone < kZones; ++zone) {
+    for (std::size_t n = 0; n < by.size(); ++n) {
+      if (zones[n] == zone) inside_.push_back(heard.lines[n]);
     }
+    line.inside[zone].end = inside_.size();
   }
   for (std::size_t n = 0; n < by.size(); ++n) {
-    if (common != nullptr && by[n] == *common) {
-      far_.push_back(heard.lines[n]);
-    } else {
-      near_.push_back(heard.lines[n]);
-      by_near_.push_back(-factor * by[n]);
-    }
+    if (zones[n] < kZones) continue;
+    edge_.push_back(heard.lines[n]);
+    by_edge_.push_back(by[n]);
   }
-  if (common != nullptr) line.by_far = -factor * *common;
-  line.near_end = near_.size();
-  line.far_end = far_.size();
+  line.edge_end = edge_.size();
   line.own.noalias() -= factor * by_own * line.state;
   // 1 / z falls as log z, (1, 4, 1) / 6 of three control points, rises.
   for (int axis = 0; axis < 3; ++axis) {
@@ -73,7 +81,6 @@ void CoupledFlock::LinearizeLine(std::size_t bird, int knot, const std::vector<K
 }
 
 ArrowSystem::Rows CoupledFlock::RowsOf(std::size_t bird, int knot) const {
-  const std::size_t here = first_line_[bird] + Index(knot);
   const bool first = knot == 0;
   const double whitening = Whitening(knot), rho = noise.Correlation(model_.knot_interval);
   ArrowSystem::Rows rows;
@@ -85,7 +92,7 @@ ArrowSystem::Rows CoupledFlock::RowsOf(std::size_t bird, int knot) const {
   rows.by_last = Eigen::MatrixXd::Zero(3, forces.size());
   for (int l = 0; l < (first ? 1 : 2); ++l) {
     const double share = l == 0 ? whitening : -whitening * rho;
-    const Line& line = lines_[here - Index(l)];
+    const Line& line = lines_[LineOf(bird, knot - l)];
     rows.residual += share * AsEigen(line.error);
     rows.path.middleCols<9>(first || l == 1 ? 0 : 3) += share * line.own;
     rows.by_own += share * line.by_log_speed;
@@ -101,26 +108,25 @@ ArrowSystem::Rows CoupledFlock::RowsOf(std::size_t bird, int knot) const {
 
 void CoupledFlock::Linearize() {
   const std::vector<Knot> states = States();
-  const double rate = 1 / model_.knot_interval;
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
+  const double rate = 1 / model_.knot_interval, reach = forces.Reach();
+  inside_.clear();
+  edge_.clear();
+  by_edge_.clear();
+  Scratch scratch{.pairs = PairForce(forces), .heard = {}, .by = {}, .zones = {}};
+  ForEachLine([&](std::size_t i, int k, std::size_t at) {
     const Bird& bird = birds_[i];
-    for (int k = 0; k < bird.knots; ++k) {
-      Line& line = lines_[first_line_[i] + Index(k)];
-      std::array<Jet9, 9> path;
-      for (int a = 0; a < 9; ++a) path[Index(a)] = Jet9(bird.path[Index(3 * k + a)], a);
-      const PathPoint<Jet9> p = PointOf(path.data(), rate, CameraAt(bird, k));
-      const std::array<const Jet9*, 6> parts = {&p.x.x, &p.x.y, &p.x.z, &p.v.x, &p.v.y, &p.v.z};
-      for (int a = 0; a < 6; ++a) line.state.row(a) = parts[Index(a)]->v;
-      const std::array<const Jet9*, 3> a_over_z = {&p.a_over_z.x, &p.a_over_z.y, &p.a_over_z.z};
-      for (int axis = 0; axis < 3; ++axis) {
-        line.own.row(axis) = bird.reference_depth * a_over_z[Index(axis)]->v;
-      }
+    Line& line = lines_[at];
+    std::array<Jet9, 9> path;
+    for (int a = 0; a < 9; ++a) path[Index(a)] = Jet9(bird.path[Index(3 * k + a)], a);
+    const PathPoint<Jet9> p = PointOf(path.data(), rate, CameraAt(bird, k));
+    const std::array<const Jet9*, 6> parts = {&p.x.x, &p.x.y, &p.x.z, &p.v.x, &p.v.y, &p.v.z};
+    for (int a = 0; a < 6; ++a) line.state.row(a) = parts[Index(a)]->v;
+    const std::array<const Jet9*, 3> a_over_z = {&p.a_over_z.x, &p.a_over_z.y, &p.a_over_z.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      line.own.row(axis) = bird.reference_depth * a_over_z[Index(axis)]->v;
     }
-  }
-  const double reach = forces.Reach();
-  near_.clear();
-  far_.clear();
-  by_near_.clear();
+    LinearizeLine(i, k, states, reach, &scratch);
+  });
   priors_.setZero(border(), border());
   Eigen::VectorXd of_priors = Eigen::VectorXd::Zero(border());
   const int n = model_.shared();
@@ -144,14 +150,13 @@ void CoupledFlock::Linearize() {
       if (term != Term::kAcceleration) animal.Add(row, RobustWeight(term, row.residual));
     });
     for (int k = 0; k < bird.knots; ++k) {
-      LinearizeLine(i, k, states, reach);
       const ArrowSystem::Rows rows = RowsOf(i, k);
-      Line& line = lines_[first_line_[i] + Index(k)];
+      Line& line = lines_[LineOf(i, k)];
       for (int axis = 0; axis < 3; ++axis) {
         line.weight[axis] = RobustWeight(Term::kAcceleration, rows.residual[axis]);
       }
       animal.Add(rows, line.weight);
-      pulls[first_line_[i] + Index(k)] = AsEigen(line.error);
+      pulls[LineOf(i, k)] = AsEigen(line.error);
     }
     const int unknowns = bird.unknowns() + kOwnUnknowns;
     gradient_.segment(place_[i], unknowns) += animal.gradient().head(unknowns);

@@ -12,18 +12,18 @@
 namespace flocklift::internal {
 namespace {
 
-std::size_t Index(int i) { return static_cast<std::size_t>(i); }
-
 // What the force says of neighbours' (x, v), and of errors to them.
 template <int Count>
 Eigen::Matrix<double, 3, Count> Told(const ByOffset& by,
                                      const Eigen::Matrix<double, 6, Count>& state) {
-  return by.x * state.template topRows<3>() + by.v * state.template bottomRows<3>();
+  const auto dx = state.template topRows<3>();
+  return by.x * dx + by.v * state.template bottomRows<3>() +
+         by.across * (by.along.transpose() * dx);
 }
 template <int Count>
 void Tell(const ByOffset& by, const Eigen::Matrix<double, 3, Count>& error,
           Eigen::Matrix<double, 6, Count>* state) {
-  state->template topRows<3>().noalias() += by.x.transpose() * error;
+  state->template topRows<3>() += by.x * error + by.along * (by.across.transpose() * error);
   state->template bottomRows<3>() += by.v * error;
 }
 
@@ -39,35 +39,32 @@ void CoupledFlock::ChangesOf(const Columns<Count>& x, Errors<Count>* own,
   const Eigen::Index first_force = place_.back() + model_.shared();
   const Eigen::Matrix<double, kForceScalars, Count> scalars =
       x.template middleRows<kForceScalars>(first_force);
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
+  ForEachLine([&](std::size_t i, int k, std::size_t at) {
     const Bird& bird = birds_[i];
-    const Eigen::Matrix<double, 1, Count> log_speed =
-        x.row(place_[i] + bird.unknowns() + kOwnLogSpeed);
-    for (int k = 0; k < bird.knots; ++k) {
-      const std::size_t at = first_line_[i] + Index(k);
-      const Line& line = lines_[at];
-      const Eigen::Matrix<double, 9, Count> path = x.template middleRows<9>(place_[i] + 3 * k);
-      states[at].noalias() = line.state * path;
-      const FlockForces::Share target =
-          forces.ShareAt((bird.first_knot + k) * model_.knot_interval);
-      const Eigen::Index knot = first_force + kForceScalars + 3 * target.knot;
-      const Eigen::Matrix<double, 3, Count> goal =
-          (1 - target.next) * x.template middleRows<3>(knot) +
-          target.next * x.template middleRows<3>(knot + 3);
-      auto& change = (*own)[at];
-      change.noalias() = line.own * path;
-      change.noalias() += line.by_forces * scalars;
-      change.noalias() += line.by_target * goal;
-      change.noalias() += line.by_log_speed * log_speed;
-    }
-  }
-  std::size_t near = 0, far = 0;
+    const Line& line = lines_[at];
+    const Eigen::Matrix<double, 9, Count> path = x.template middleRows<9>(place_[i] + 3 * k);
+    states[at].noalias() = line.state * path;
+    const FlockForces::Share target = forces.ShareAt((bird.first_knot + k) * model_.knot_interval);
+    const Eigen::Index knot = first_force + kForceScalars + 3 * target.knot;
+    const Eigen::Matrix<double, 3, Count> goal =
+        (1 - target.next) * x.template middleRows<3>(knot) +
+        target.next * x.template middleRows<3>(knot + 3);
+    auto& change = (*own)[at];
+    change.noalias() = line.own * path;
+    change.noalias() += line.by_forces * scalars;
+    change.noalias() += line.by_target * goal;
+    change.noalias() += line.by_log_speed * x.row(place_[i] + bird.unknowns() + kOwnLogSpeed);
+  });
+  std::size_t edge = 0, inside = 0;
   for (std::size_t at = 0; at < lines_.size(); ++at) {
     const Line& line = lines_[at];
-    State all = State::Zero();
-    for (; far < line.far_end; ++far) all += states[far_[far]];
-    Eigen::Matrix<double, 3, Count> sum = Told<Count>(line.by_far, all);
-    for (; near < line.near_end; ++near) sum += Told<Count>(by_near_[near], states[near_[near]]);
+    Eigen::Matrix<double, 3, Count> sum = Eigen::Matrix<double, 3, Count>::Zero();
+    for (const auto& [end, by_x, by_v] : line.inside) {
+      State all = State::Zero();
+      for (; inside < end; ++inside) all += states[inside_[inside]];
+      sum += by_x * all.template topRows<3>() + by_v * all.template bottomRows<3>();
+    }
+    for (; edge < line.edge_end; ++edge) sum += Told<Count>(by_edge_[edge], states[edge_[edge]]);
     (*heard)[at] = sum;
   }
 }
@@ -79,11 +76,11 @@ void CoupledFlock::Weigh(Errors<Count>* errors) const {
   for (std::size_t i = 0; i < birds_.size(); ++i) {
     Eigen::Matrix<double, 3, Count> before = Eigen::Matrix<double, 3, Count>::Zero();
     for (int k = 0; k < birds_[i].knots; ++k) {
-      const std::size_t at = first_line_[i] + Index(k);
+      const std::size_t at = LineOf(i, k);
       const double whitening = Whitening(k) * Whitening(k);
       const Eigen::Matrix<double, 3, Count> error = (*errors)[at];
       (*errors)[at] = (whitening * lines_[at].weight).asDiagonal() * (error - rho * before);
-      if (k > 0) (*errors)[at - 1] -= rho * (*errors)[at];
+      if (k > 0) (*errors)[LineOf(i, k - 1)] -= rho * (*errors)[at];
       before = error;
     }
   }
@@ -92,48 +89,43 @@ void CoupledFlock::Weigh(Errors<Count>* errors) const {
 template <int Count>
 void CoupledFlock::PullOwn(const Errors<Count>& errors, Columns<Count>* y) const {
   const Eigen::Index first_force = place_.back() + model_.shared();
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
+  ForEachLine([&](std::size_t i, int k, std::size_t at) {
     const Bird& bird = birds_[i];
-    for (int k = 0; k < bird.knots; ++k) {
-      const std::size_t at = first_line_[i] + Index(k);
-      const Line& line = lines_[at];
-      const auto& error = errors[at];
-      y->template middleRows<9>(place_[i] + 3 * k).noalias() += line.own.transpose() * error;
-      y->row(place_[i] + bird.unknowns() + kOwnLogSpeed).noalias() +=
-          line.by_log_speed.transpose() * error;
-      y->template middleRows<kForceScalars>(first_force).noalias() +=
-          line.by_forces.transpose() * error;
-      const FlockForces::Share target =
-          forces.ShareAt((bird.first_knot + k) * model_.knot_interval);
-      const Eigen::Index knot = first_force + kForceScalars + 3 * target.knot;
-      const Eigen::Matrix<double, 3, Count> goal = line.by_target.transpose() * error;
-      y->template middleRows<3>(knot) += (1 - target.next) * goal;
-      y->template middleRows<3>(knot + 3) += target.next * goal;
-    }
-  }
+    const Line& line = lines_[at];
+    const auto& error = errors[at];
+    y->template middleRows<9>(place_[i] + 3 * k).noalias() += line.own.transpose() * error;
+    y->row(place_[i] + bird.unknowns() + kOwnLogSpeed).noalias() +=
+        line.by_log_speed.transpose() * error;
+    y->template middleRows<kForceScalars>(first_force).noalias() +=
+        line.by_forces.transpose() * error;
+    const FlockForces::Share target = forces.ShareAt((bird.first_knot + k) * model_.knot_interval);
+    const Eigen::Index knot = first_force + kForceScalars + 3 * target.knot;
+    const Eigen::Matrix<double, 3, Count> goal = line.by_target.transpose() * error;
+    y->template middleRows<3>(knot) += (1 - target.next) * goal;
+    y->template middleRows<3>(knot + 3) += target.next * goal;
+  });
 }
 
 template <int Count>
 void CoupledFlock::PullHeard(const Errors<Count>& errors, Columns<Count>* y) const {
   using State = Eigen::Matrix<double, 6, Count>;
   std::vector<State> states(lines_.size(), State::Zero());
-  std::size_t near = 0, far = 0;
+  std::size_t edge = 0, inside = 0;
   for (std::size_t at = 0; at < lines_.size(); ++at) {
     const Line& line = lines_[at];
-    State all = State::Zero();
-    Tell<Count>(line.by_far, errors[at], &all);
-    for (; far < line.far_end; ++far) states[far_[far]] += all;
-    for (; near < line.near_end; ++near) {
-      Tell<Count>(by_near_[near], errors[at], &states[near_[near]]);
+    for (const auto& [end, by_x, by_v] : line.inside) {
+      State all;
+      all << by_x * errors[at], by_v * errors[at];
+      for (; inside < end; ++inside) states[inside_[inside]] += all;
+    }
+    for (; edge < line.edge_end; ++edge) {
+      Tell<Count>(by_edge_[edge], errors[at], &states[edge_[edge]]);
     }
   }
-  for (std::size_t i = 0; i < birds_.size(); ++i) {
-    for (int k = 0; k < birds_[i].knots; ++k) {
-      const std::size_t at = first_line_[i] + Index(k);
-      y->template middleRows<9>(place_[i] + 3 * k).noalias() +=
-          lines_[at].state.transpose() * states[at];
-    }
-  }
+  ForEachLine([&](std::size_t i, int k, std::size_t at) {
+    y->template middleRows<9>(place_[i] + 3 * k).noalias() +=
+        lines_[at].state.transpose() * states[at];
+  });
 }
 
 template <int Count>

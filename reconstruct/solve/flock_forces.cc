@@ -16,10 +16,8 @@
 namespace flocklift::internal {
 namespace {
 
-using Jet4 = ceres::Jet<double, 4>;  // of a rule's sum: value and weight
-using Jet3 = ceres::Jet<double, 3>;  // of dx
-using JetE = ceres::Jet<double, 3>;  // of the edges: d_s, d_v, taper
-using JetP = ceres::Jet<double, kPairUnknowns>;
+using JetW = ceres::Jet<double, 3>;  // of a window's: squared distance, radius, taper
+using JetR = ceres::Jet<double, 5>;  // of a rule's sum: value and weight; and of its gain
 using JetS = ceres::Jet<double, 6 + 1 + kSelfUnknowns + 3>;  // (x, v), log speed, unknowns, target
 
 // The rules of neighbours with parameters given by `unknown`, of any scalar.
@@ -39,54 +37,39 @@ Vec3<Jet> Seeded(const Vec3d& v, int first) {
   return {Jet(v.x, first), Jet(v.y, first + 1), Jet(v.z, first + 2)};
 }
 
-// What a rule's sum is made of, with derivatives by each neighbour.
+// The sum of one rule over the neighbours, with what its window's radius and taper change.
 struct RuleSum {
   Weighted<double> sum;
-  std::vector<Eigen::Matrix<double, 4, 3>> by;  // of (value, weight) by each neighbour's dx
-  std::vector<double> by_dv;                    // of value by its dv, times the unit matrix
+  Eigen::Matrix<double, 4, 2> by_edge = Eigen::Matrix<double, 4, 2>::Zero();  // (value, weight)
+  Eigen::Matrix<double, 3, 5> force;  // derivatives by (value, weight) and the gain's logarithm
 
-  // `velocities`: do these average dv, rather than something of dx?
-  void Add(const Share<Jet3>& share, bool velocities) {
-    const Vec3<Jet3> value = share.weight * share.value;
-    sum.value += Vec3d{value.x.a, value.y.a, value.z.a};
-    sum.weight += share.weight.a;
-    Eigen::Matrix<double, 4, 3>& d = by.emplace_back();
-    d.row(0) = value.x.v.transpose();
-    d.row(1) = value.y.v.transpose();
-    d.row(2) = value.z.v.transpose();
-    d.row(3) = share.weight.v.transpose();
-    if (velocities) by_dv.push_back(share.weight.a);
+  void Add(const Vec3d& value, const Weight& weight) {
+    sum += Share<double>{value, weight.value};
+    if (weight.by_square == 0) return;
+    const Eigen::Vector4d with{value.x, value.y, value.z, 1};
+    by_edge.col(0) += weight.by_radius * with;
+    by_edge.col(1) += weight.by_taper * with;
   }
-  Weighted<Jet4> AsJets() const {
-    Weighted<Jet4> jets;
-    jets.value = {Jet4(sum.value.x, 0), Jet4(sum.value.y, 1), Jet4(sum.value.z, 2)};
-    jets.weight = Jet4(sum.weight, 3);
-    return jets;
+  // The term's own last step.
+  template <typename Term>
+  void Finish(double gain) {
+    const Weighted<JetR> jets{{JetR(sum.value.x, 0), JetR(sum.value.y, 1), JetR(sum.value.z, 2)},
+                              JetR(sum.weight, 3)};
+    typename Term::template Params<JetR> p{};
+    p.gain = JetR(gain);
+    p.gain.v[4] = gain;
+    const Vec3<JetR> f = Term::Finish(p, jets);
+    force << f.x.v.transpose(), f.y.v.transpose(), f.z.v.transpose();
   }
-  // Adds the rule's derivatives.
-  void Finish(const Vec3<Jet4>& force, ByOffset* derivatives) const {
-    Eigen::Matrix<double, 3, 4> by_sum;
-    by_sum.row(0) = force.x.v.transpose();
-    by_sum.row(1) = force.y.v.transpose();
-    by_sum.row(2) = force.z.v.transpose();
-    for (std::size_t j = 0; j < by.size(); ++j) derivatives[j].x.noalias() += by_sum * by[j];
-    // The force is a multiple of the mean value.
-    for (std::size_t j = 0; j < by_dv.size(); ++j) derivatives[j].v += by_sum(0, 0) * by_dv[j];
+  // The force is a multiple of the mean value.
+  double by_value() const { return force(0, 0); }
+  // By a neighbour's weight, for what it adds itself.
+  Eigen::Vector3d ByWeight(const Vec3d& value) const {
+    return force.col(3) + by_value() * Eigen::Vector3d{value.x, value.y, value.z};
   }
+  Eigen::Vector3d ByRadius() const { return force.leftCols<4>() * by_edge.col(0); }
+  Eigen::Vector3d ByTaper() const { return force.leftCols<4>() * by_edge.col(1); }
 };
-
-// The same sum, with derivatives by all unknowns of neighbours' forces.
-Weighted<JetP> AllUnknowns(const Weighted<JetE>& sum) {
-  const auto wide = [](const JetE& x) {
-    JetP jet(x.a);
-    jet.v.head<3>() = x.v;
-    return jet;
-  };
-  Weighted<JetP> all;
-  all.value = {wide(sum.value.x), wide(sum.value.y), wide(sum.value.z)};
-  all.weight = wide(sum.weight);
-  return all;
-}
 
 template <typename T>
 struct SelfParameters {
@@ -153,51 +136,72 @@ Vec3d FlockForces::TargetAt(double time) const {
   return (1 - share.next) * Vec3d{at[0], at[1], at[2]} + share.next * Vec3d{at[3], at[4], at[5]};
 }
 
-Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, ByOffset* by_offsets,
-                PairUnknownsMatrix* by_unknowns) {
-  const auto value = [&forces](ForceUnknown k) { return forces[k]; };
-  const auto plain = PairsOf<double>(value);
-  BoidsPairs<double>::Sums sums;
-  for (const Offset& o : offsets) sums += plain.Pair(o.dx, o.dv);
-  if (by_offsets != nullptr) {
-    const auto pairs = PairsOf<Jet3>([&](ForceUnknown k) { return Jet3(forces[k]); });
-    RuleSum separation, cohesion, alignment;
-    for (RuleSum* rule : {&separation, &cohesion, &alignment}) rule->by.reserve(offsets.size());
-    for (std::size_t j = 0; j < offsets.size(); ++j) {
-      const Vec3d& dv = offsets[j].dv;
-      const auto shares =
-          pairs.Pair(Seeded<Jet3>(offsets[j].dx, 0), {Jet3(dv.x), Jet3(dv.y), Jet3(dv.z)});
-      separation.Add(shares.separation, false);
-      cohesion.Add(shares.cohesion, false);
-      alignment.Add(shares.alignment, true);
-      by_offsets[j] = {};
+WeightWindow::WeightWindow(double radius, double taper)
+    : radius_(radius),
+      taper_(taper),
+      inner_(std::pow(std::max(0.0, radius - 0.5 * taper), 2)),
+      outer_(std::pow(radius + 0.5 * taper, 2)) {}
+
+double WeightWindow::ValueAt(double square) const {
+  if (square < inner_) return 1;
+  return square > outer_ ? 0 : TaperWindow(square, radius_, taper_);
+}
+
+Weight WeightWindow::At(double square) const {
+  if (square < inner_) return {.value = 1};
+  if (square > outer_) return {};
+  const JetW w = TaperWindow(JetW(square, 0), JetW(radius_, 1), JetW(taper_, 2));
+  return {w.a, w.v[0], w.v[1], w.v[2]};
+}
+
+PairForce::PairForce(const FlockForces& forces)
+    : rules_(PairsOf<double>([&forces](ForceUnknown k) { return forces[k]; })),
+      near_(rules_.separation.radius, rules_.separation.taper),
+      seen_(rules_.cohesion.radius, rules_.cohesion.taper) {}
+
+Vec3d PairForce::operator()(std::span<const Offset> offsets, ByOffset* by_offsets,
+                            PairUnknownsMatrix* by_unknowns) {
+  if (by_offsets == nullptr) {
+    BoidsPairs<double>::Sums sums;
+    for (const Offset& o : offsets) {
+      const double square = Dot(o.dx, o.dx), seen = seen_.ValueAt(square);
+      sums += {{o.dx, near_.ValueAt(square)}, {o.dx, seen}, {o.dv, seen}};
     }
-    const auto rules = PairsOf<Jet4>([&](ForceUnknown k) { return Jet4(forces[k]); });
-    separation.Finish(Separation::Finish(rules.separation, separation.AsJets()), by_offsets);
-    cohesion.Finish(Cohesion::Finish(rules.cohesion, cohesion.AsJets()), by_offsets);
-    alignment.Finish(Alignment::Finish(rules.alignment, alignment.AsJets()), by_offsets);
+    return rules_.Finish(sums);
   }
-  if (by_unknowns != nullptr) {
-    const auto unknown = [&forces](ForceUnknown k) {
-      using std::exp;
-      return exp(JetP(forces.unknowns[k], k));
-    };
-    // Sums depend on the edges alone; gains come last.
-    const auto pairs = PairsOf<JetE>([&](ForceUnknown k) {
-      JetE edge(forces[k]);
-      if (k <= kLogTaper) edge.v[k] = edge.a;
-      return edge;
-    });
-    BoidsPairs<JetE>::Sums total;
-    const auto constant = [](const Vec3d& v) {
-      return Vec3<JetE>{JetE(v.x), JetE(v.y), JetE(v.z)};
-    };
-    for (const Offset& o : offsets) total += pairs.Pair(constant(o.dx), constant(o.dv));
-    const BoidsPairs<JetP>::Sums by_all{AllUnknowns(total.separation), AllUnknowns(total.cohesion),
-                                        AllUnknowns(total.alignment)};
-    CopyDerivatives<kPairUnknowns>(PairsOf<JetP>(unknown).Finish(by_all), 0, *by_unknowns);
+  RuleSum separation, cohesion, alignment;
+  weights_.clear();
+  for (const Offset& o : offsets) {
+    const double square = Dot(o.dx, o.dx);
+    const auto& [near, seen] =
+        weights_.emplace_back(std::array{near_.At(square), seen_.At(square)});
+    separation.Add(o.dx, near);
+    cohesion.Add(o.dx, seen);
+    alignment.Add(o.dv, seen);
   }
-  return plain.Finish(sums);
+  separation.Finish<Separation>(rules_.separation.gain);
+  cohesion.Finish<Cohesion>(rules_.cohesion.gain);
+  alignment.Finish<Alignment>(rules_.alignment.gain);
+  for (std::size_t j = 0; j < offsets.size(); ++j) {
+    const auto& [near, seen] = weights_[j];
+    const auto& [dx, dv] = offsets[j];
+    ByOffset& by = by_offsets[j];
+    by = {.x = separation.by_value() * near.value + cohesion.by_value() * seen.value,
+          .v = alignment.by_value() * seen.value};
+    if (near.by_square != 0) by.across += 2 * near.by_square * separation.ByWeight(dx);
+    if (seen.by_square != 0) {
+      by.across += 2 * seen.by_square * (cohesion.ByWeight(dx) + alignment.ByWeight(dv));
+    }
+    if (by.on_edge()) by.along = {dx.x, dx.y, dx.z};
+  }
+  by_unknowns->col(kLogDs) = rules_.separation.radius * separation.ByRadius();
+  by_unknowns->col(kLogDv) = rules_.cohesion.radius * (cohesion.ByRadius() + alignment.ByRadius());
+  by_unknowns->col(kLogTaper) =
+      rules_.cohesion.taper * (separation.ByTaper() + cohesion.ByTaper() + alignment.ByTaper());
+  by_unknowns->col(kLogAlphaS) = separation.force.col(4);
+  by_unknowns->col(kLogAlphaC) = cohesion.force.col(4);
+  by_unknowns->col(kLogAlphaA) = alignment.force.col(4);
+  return rules_.Finish({separation.sum, cohesion.sum, alignment.sum});
 }
 
 Vec3d SelfForce(const FlockForces& forces, double log_speed, double time, const Vec3d& x,

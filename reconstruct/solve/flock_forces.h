@@ -12,10 +12,13 @@
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_FLOCK_FORCES_H_
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "simulate/core/vec3.h"
+#include "simulate/flock/boids.h"
 
 namespace flocklift::internal {
 
@@ -66,27 +69,49 @@ struct Offset {
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-// Derivatives of a force by a neighbour's (dx, dv): [x, v I], for velocities are averaged.
+// Derivatives of a force by a neighbour's (dx, dv): [x I + across along^T, v I], for offsets and
+// velocities are averaged, with weights that change with distance on the rules' edges alone.
 struct ByOffset {
-  Eigen::Matrix3d x = Eigen::Matrix3d::Zero();
-  double v = 0;
+  double x = 0, v = 0;
+  Eigen::Vector3d across = Eigen::Vector3d::Zero(), along = Eigen::Vector3d::Zero();
 
-  friend bool operator==(const ByOffset&, const ByOffset&) = default;
-  ByOffset& operator+=(const ByOffset& b) {
-    x += b.x;
-    v += b.v;
-    return *this;
+  bool on_edge() const { return across != Eigen::Vector3d::Zero(); }
+  Eigen::Matrix3d ByPosition() const {
+    return x * Eigen::Matrix3d::Identity() + across * along.transpose();
   }
-  friend ByOffset operator*(double factor, const ByOffset& b) {
-    return {factor * b.x, factor * b.v};
-  }
+};
+
+// How much a neighbour counts by its distance: TaperWindow of its square, with derivatives.
+struct Weight {
+  double value = 0, by_square = 0, by_radius = 0, by_taper = 0;
+};
+class WeightWindow {
+ public:
+  WeightWindow(double radius, double taper);
+  double ValueAt(double square) const;
+  Weight At(double square) const;
+
+ private:
+  double radius_, taper_;
+  double inner_, outer_;  // squared distances up to which it is 1, from which on 0
 };
 
 // The force of neighbours; where they are not null, its derivatives by each one's (dx, dv), and by
 // the first kPairUnknowns unknowns.
 using PairUnknownsMatrix = Eigen::Matrix<double, 3, kPairUnknowns>;
-Vec3d PairForce(const FlockForces& forces, std::span<const Offset> offsets, ByOffset* by_offsets,
-                PairUnknownsMatrix* by_unknowns);
+class PairForce {
+ public:
+  explicit PairForce(const FlockForces& forces);
+  Vec3d operator()(std::span<const Offset> offsets, ByOffset* by_offsets,
+                   PairUnknownsMatrix* by_unknowns);
+
+ private:
+  struct Derivatives;
+
+  BoidsPairs<double> rules_;
+  WeightWindow near_, seen_;
+  std::vector<std::array<Weight, 2>> weights_;  // of every neighbour, by both windows
+};
 
 // The rest, and its derivatives where they are wanted.
 struct SelfDerivatives {

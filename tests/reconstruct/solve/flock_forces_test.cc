@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "simulate/core/rng.h"
+#include "simulate/forces/window.h"
 
 namespace flocklift::internal {
 namespace {
@@ -58,7 +59,7 @@ TEST(FlockForces, ByHandFarFromEveryEdge) {
   f.unknowns[kLogAlphaC] = std::log(0.1);
   f.unknowns[kLogAlphaA] = std::log(0.5);
   const std::vector<Offset> offsets = {{{2, 0, 0}, {1, 0, 0}}, {{0, 3, 0}, {0, 0, 2}}};
-  const Vec3d force = PairForce(f, offsets, nullptr, nullptr);
+  const Vec3d force = PairForce(f)(offsets, nullptr, nullptr);
   // Mean offset (1, 1.5, 0), mean difference (0.5, 0, 1).
   EXPECT_NEAR(force.x, -2 * 1 + 0.1 * 1 + 0.5 * 0.5, 1e-12);
   EXPECT_NEAR(force.y, -2 * 1.5 + 0.1 * 1.5, 1e-12);
@@ -79,19 +80,42 @@ TEST(FlockForces, ByHandWithoutNeighbours) {
   EXPECT_NEAR(std::hypot(force.x, force.z), 0, 1e-12);
 }
 
+// In the middle, on both edges of the taper, outside, and where the taper is wider than the radius.
+TEST(FlockForces, WeightsAreThoseOfTheTerms) {
+  for (const double taper : {2.0, 14.0}) {
+    constexpr double kRadius = 5;
+    const WeightWindow window(kRadius, taper);
+    for (const double distance : {0.9, 3.9, 4.1, 5.0, 5.9, 6.1, 11.9, 12.1}) {
+      const double square = distance * distance;
+      const Weight weight = window.At(square);
+      EXPECT_NEAR(weight.value, TaperWindow(square, kRadius, taper), 1e-12);
+      EXPECT_NEAR(weight.value, window.ValueAt(square), 1e-12);
+      const auto slope = [](const auto& value) {
+        return (value(kStep) - value(-kStep)) / 2 / kStep;
+      };
+      const auto by_square = [&](double h) { return TaperWindow(square + h, kRadius, taper); };
+      const auto by_radius = [&](double h) { return TaperWindow(square, kRadius + h, taper); };
+      const auto by_taper = [&](double h) { return TaperWindow(square, kRadius, taper + h); };
+      EXPECT_NEAR(weight.by_square, slope(by_square), 1e-7) << distance;
+      EXPECT_NEAR(weight.by_radius, slope(by_radius), 1e-7) << distance;
+      EXPECT_NEAR(weight.by_taper, slope(by_taper), 1e-7) << distance;
+    }
+  }
+}
+
 TEST(FlockForces, PairDerivativesAreThoseOfDifferences) {
   FlockForces f = SomeForces();
   std::vector<Offset> offsets = Neighbours(9);
   std::vector<ByOffset> by(offsets.size());
   PairUnknownsMatrix by_unknowns;
-  const Vec3d force = PairForce(f, offsets, by.data(), &by_unknowns);
-  const auto plain = [&] { return PairForce(f, offsets, nullptr, nullptr); };
-  EXPECT_EQ(Norm(force - plain()), 0);
+  const Vec3d force = PairForce(f)(offsets, by.data(), &by_unknowns);
+  const auto plain = [&] { return PairForce(f)(offsets, nullptr, nullptr); };
+  EXPECT_NEAR(Norm(force - plain()), 0, 1e-12);
   for (std::size_t j = 0; j < offsets.size(); ++j) {
     for (int c = 0; c < 6; ++c) {
       double* place = &Part(c < 3 ? &offsets[j].dx : &offsets[j].dv, c % 3);
-      const Eigen::Vector3d column =
-          c < 3 ? Eigen::Vector3d(by[j].x.col(c)) : by[j].v * Eigen::Vector3d::Unit(c - 3);
+      const Eigen::Vector3d column = c < 3 ? Eigen::Vector3d(by[j].ByPosition().col(c))
+                                           : by[j].v * Eigen::Vector3d::Unit(c - 3);
       EXPECT_NEAR((column - Slope(place, plain)).norm(), 0, 1e-6) << j << " " << c;
     }
   }
@@ -138,8 +162,8 @@ TEST(FlockForces, KnowsNoScale) {
   larger.unknowns.tail(f.size() - kForceScalars) *= 2;
   for (Offset& o : far) o = {2 * o.dx, 2 * o.dv};
   const Vec3d x{3, -2, 35}, v{6, 2, -5};
-  const Vec3d once = PairForce(f, offsets, nullptr, nullptr) + SelfForce(f, 2.1, 3, x, v, nullptr);
-  const Vec3d twice = PairForce(larger, far, nullptr, nullptr) +
+  const Vec3d once = PairForce(f)(offsets, nullptr, nullptr) + SelfForce(f, 2.1, 3, x, v, nullptr);
+  const Vec3d twice = PairForce(larger)(far, nullptr, nullptr) +
                       SelfForce(larger, 2.1 + std::log(2.0), 3, 2 * x, 2 * v, nullptr);
   EXPECT_NEAR(Norm(twice - 2 * once), 0, 1e-9);
 }
