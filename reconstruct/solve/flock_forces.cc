@@ -20,16 +20,14 @@ using JetW = ceres::Jet<double, 3>;  // of a window's: squared distance, radius,
 using JetR = ceres::Jet<double, 5>;  // of a rule's sum: value and weight; and of its gain
 using JetS = ceres::Jet<double, 6 + 1 + kSelfUnknowns + 3>;  // (x, v), log speed, unknowns, target
 
-// The rules of neighbours with parameters given by `unknown`, of any scalar.
-template <typename T, typename Unknown>
-BoidsPairs<T> PairsOf(const Unknown& unknown) {
-  BoidsParameters<T> p;
-  p.d_s = unknown(kLogDs);
-  p.d_v = unknown(kLogDv);
-  p.alpha_s = unknown(kLogAlphaS);
-  p.alpha_c = unknown(kLogAlphaC);
-  p.alpha_a = unknown(kLogAlphaA);
-  return MakeBoidsPairs<T>(p, unknown(kLogTaper));
+BoidsPairs<double> PairsOf(const FlockForces& forces) {
+  BoidsParameters<double> p;
+  p.d_s = forces[kLogDs];
+  p.d_v = forces[kLogDv];
+  p.alpha_s = forces[kLogAlphaS];
+  p.alpha_c = forces[kLogAlphaC];
+  p.alpha_a = forces[kLogAlphaA];
+  return MakeBoidsPairs<double>(p, forces[kLogTaper]);
 }
 
 template <typename Jet>
@@ -155,7 +153,7 @@ Weight WeightWindow::At(double square) const {
 }
 
 PairForce::PairForce(const FlockForces& forces)
-    : rules_(PairsOf<double>([&forces](ForceUnknown k) { return forces[k]; })),
+    : rules_(PairsOf(forces)),
       near_(rules_.separation.radius, rules_.separation.taper),
       seen_(rules_.cohesion.radius, rules_.cohesion.taper) {}
 

@@ -96,8 +96,8 @@ class WeightWindow {
   double inner_, outer_;  // squared distances up to which it is 1, from which on 0
 };
 
-// The force of neighbours; where they are not null, its derivatives by each one's (dx, dv), and by
-// the first kPairUnknowns unknowns.
+// The force of neighbours; where they are wanted, both, its derivatives by each one's (dx, dv), and
+// by the first kPairUnknowns unknowns.
 using PairUnknownsMatrix = Eigen::Matrix<double, 3, kPairUnknowns>;
 class PairForce {
  public:
@@ -106,8 +106,6 @@ class PairForce {
                    PairUnknownsMatrix* by_unknowns);
 
  private:
-  struct Derivatives;
-
   BoidsPairs<double> rules_;
   WeightWindow near_, seen_;
   std::vector<std::array<Weight, 2>> weights_;  // of every neighbour, by both windows
