@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "reconstruct/fit/limited_velocity.h"
 #include "reconstruct/fit/state_transition.h"
@@ -53,7 +54,7 @@ struct Track {
 class Filter {
  public:
   Filter(const FilterOptions& options, const ProcessModel& model, const std::vector<double>& theta,
-         const FlockNoise& noise, const FilterInput& input)
+         const FlockNoise& noise, const FilterInput& input, FilterSweep memory)
       : options_(options),
         model_(model),
         theta_(theta),
@@ -62,7 +63,11 @@ class Filter {
         q_(2 * noise.diffusion),
         variance_(noise.position_variance + kLeastVariance * q_ * std::pow(input.dt(), 3)),
         tracks_(static_cast<std::size_t>(input.animals())),
-        last_(static_cast<std::size_t>(input.animals())) {
+        last_(static_cast<std::size_t>(input.animals())),
+        sweep_(std::move(memory)) {
+    sweep_.innovations.clear();
+    sweep_.innovations.reserve(input.sightings());
+    sweep_.cost = 0;
     if (model.speed_range) range_ = model.speed_range(theta);
   }
 
@@ -280,9 +285,9 @@ class Filter {
 
 FilterSweep RunFilter(const FilterOptions& options, const ProcessModel& model,
                       const std::vector<double>& theta, const FlockNoise& noise,
-                      const FilterInput& input) {
+                      const FilterInput& input, FilterSweep memory) {
   Check(noise.diffusion > 0, "a filter needs a positive diffusion");
-  return Filter(options, model, theta, noise, input).Run();
+  return Filter(options, model, theta, noise, input, std::move(memory)).Run();
 }
 
 }  // namespace flocklift

@@ -56,9 +56,10 @@ struct FilterSweep {
   double cost = 0;                      // -2 log p, without its constant
 };
 
+// The memory of an earlier sweep, if it is handed over, is used again.
 FilterSweep RunFilter(const FilterOptions& options, const ProcessModel& model,
                       const std::vector<double>& theta, const FlockNoise& noise,
-                      const FilterInput& input);
+                      const FilterInput& input, FilterSweep memory = {});
 
 }  // namespace flocklift
 

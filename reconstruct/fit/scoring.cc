@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "simulate/core/parallel_for.h"
 
@@ -139,14 +140,14 @@ FlockNoise Scoring::NoiseAt(const std::vector<double>& phi) const {
   return {.diffusion = 0.5 * std::exp(phi[p_]),
           .position_variance = phi[p_ + 1] > lowest_ ? std::exp(phi[p_ + 1]) - smallest_ : 0};
 }
-FilterSweep Scoring::SweepAt(const std::vector<double>& phi) const {
+FilterSweep Scoring::SweepAt(const std::vector<double>& phi, FilterSweep memory) const {
   const std::vector<double> theta(phi.begin(), phi.begin() + static_cast<std::ptrdiff_t>(p_));
   if (paths_ == nullptr) {
-    return RunFilter(options_.filter, model_, theta, NoiseAt(phi), input_);
+    return RunFilter(options_.filter, model_, theta, NoiseAt(phi), input_, std::move(memory));
   }
   const std::span<const double> z = std::span(phi).subspan(own_);
-  FilterSweep sweep =
-      RunFilter(options_.filter, model_, theta, NoiseAt(phi), paths_->Without(input_, z));
+  FilterSweep sweep = RunFilter(options_.filter, model_, theta, NoiseAt(phi),
+                                paths_->Without(input_, z), std::move(memory));
   for (const double value : z) sweep.cost += value * value;
   sweep.cost -= 2 * paths_->LogVolume(z);
   return sweep;
@@ -154,49 +155,48 @@ FilterSweep Scoring::SweepAt(const std::vector<double>& phi) const {
 
 void Scoring::Linearize(const FilterSweep& base) {
   const std::size_t count = base.innovations.size();
-  std::vector<Matrix3> roots(count);
-  Eigen::VectorXd white(3 * static_cast<Eigen::Index>(count));
+  roots_.resize(count);
+  white_.resize(3 * static_cast<Eigen::Index>(count));
   for (std::size_t k = 0; k < count; ++k) {
     const Matrix3 s = CovarianceOf(base.innovations[k]);
-    roots[k] = Eigen::LLT<Matrix3>(s).matrixL().solve(Matrix3::Identity());
-    white.segment<3>(3 * static_cast<Eigen::Index>(k)) = roots[k] * ValueOf(base.innovations[k]);
+    roots_[k] = Eigen::LLT<Matrix3>(s).matrixL().solve(Matrix3::Identity());
+    white_.segment<3>(3 * static_cast<Eigen::Index>(k)) = roots_[k] * ValueOf(base.innovations[k]);
   }
-  std::vector<FilterSweep> kept(own_);
-  // Whitened eps_p, and S_p of what S depends on.
-  Eigen::MatrixXd slopes(white.size(), static_cast<Eigen::Index>(phi_.size()));
-  Eigen::MatrixXd changes(3 * white.size(), static_cast<Eigen::Index>(own_));
-  ParallelFor(options_.threads, 0, slopes.cols(), 1, [&](std::int64_t first, std::int64_t last) {
+  moved_.resize(own_);
+  slopes_.resize(white_.size(), static_cast<Eigen::Index>(phi_.size()));
+  changes_.resize(3 * white_.size(), static_cast<Eigen::Index>(own_));
+  ParallelFor(options_.threads, 0, slopes_.cols(), 1, [&](std::int64_t first, std::int64_t last) {
     for (auto p = static_cast<std::size_t>(first); p < static_cast<std::size_t>(last); ++p) {
       std::vector<double> phi = phi_;
       phi[p] += differences_[p];
-      FilterSweep moved = SweepAt(phi);
+      FilterSweep moved = SweepAt(phi, p < own_ ? std::move(moved_[p]) : FilterSweep());
       const auto column = static_cast<Eigen::Index>(p);
       for (std::size_t k = 0; k < count; ++k) {
         const auto row = static_cast<Eigen::Index>(k);
         const Innovation &one = base.innovations[k], &other = moved.innovations[k];
-        slopes.col(column).segment<3>(3 * row) =
-            roots[k] * (ValueOf(other) - ValueOf(one)) / differences_[p];
+        slopes_.col(column).segment<3>(3 * row) =
+            roots_[k] * (ValueOf(other) - ValueOf(one)) / differences_[p];
         if (p >= own_) continue;
-        Matrix3 change = roots[k] * (CovarianceOf(other) - CovarianceOf(one)) *
-                         roots[k].transpose() / differences_[p];
+        Matrix3 change = roots_[k] * (CovarianceOf(other) - CovarianceOf(one)) *
+                         roots_[k].transpose() / differences_[p];
         if (one.is_limited) change.setZero();
-        changes.col(column).segment<9>(9 * row) = Eigen::Map<const Vector9>(change.data());
+        changes_.col(column).segment<9>(9 * row) = Eigen::Map<const Vector9>(change.data());
       }
-      if (p < own_) kept[p] = std::move(moved);
+      if (p < own_) moved_[p] = std::move(moved);
     }
   });
-  information_.noalias() = slopes.transpose() * slopes;
-  score_.noalias() = slopes.transpose() * white;
+  information_.noalias() = slopes_.transpose() * slopes_;
+  score_.noalias() = slopes_.transpose() * white_;
   const auto size = static_cast<Eigen::Index>(own_);
-  information_.topLeftCorner(size, size).noalias() += 0.5 * changes.transpose() * changes;
+  information_.topLeftCorner(size, size).noalias() += 0.5 * changes_.transpose() * changes_;
   for (std::size_t k = 0; k < count; ++k) {
     const auto row = static_cast<Eigen::Index>(k);
-    const Vector3 value = white.segment<3>(3 * row);
+    const Vector3 value = white_.segment<3>(3 * row);
     const Matrix3 surplus = Matrix3::Identity() - value * value.transpose();
-    score_.head(size).noalias() += 0.5 * changes.middleRows<9>(9 * row).transpose() *
+    score_.head(size).noalias() += 0.5 * changes_.middleRows<9>(9 * row).transpose() *
                                    Eigen::Map<const Vector9>(surplus.data());
   }
-  if (paths_ != nullptr) AddDepthErrors(base, kept);
+  if (paths_ != nullptr) AddDepthErrors(base);
 }
 
 Eigen::VectorXd Scoring::Step() {
@@ -270,14 +270,15 @@ bool Scoring::Walk(const Eigen::VectorXd& step, FilterSweep* sweep) {
       phi[p] += std::clamp(share * step[static_cast<Eigen::Index>(p)], -limit, limit);
     }
     phi[p_ + 1] = std::max(phi[p_ + 1], lowest_);
-    FilterSweep next = SweepAt(phi);
+    FilterSweep next = SweepAt(phi, std::move(spare_));
     double cost = CostBeside(*sweep, next);
     for (std::size_t p = 0; p < own_ && determinant_.size() > 0; ++p) {
       cost += 2 * determinant_[static_cast<Eigen::Index>(p)] * (phi[p] - phi_[p]);
     }
+    spare_ = std::move(next);
     if (!(cost <= sweep->cost)) continue;
     phi_ = phi;
-    *sweep = std::move(next);
+    std::swap(*sweep, spare_);
     return true;
   }
   return false;

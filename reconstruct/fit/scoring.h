@@ -34,12 +34,12 @@ class Scoring {
 
  private:
   FlockNoise NoiseAt(const std::vector<double>& phi) const;
-  FilterSweep SweepAt(const std::vector<double>& phi) const;
+  FilterSweep SweepAt(const std::vector<double>& phi, FilterSweep memory = {}) const;
   // Score and information at phi_.
   void Linearize(const FilterSweep& base);
   // Adds to them what is expected of depth errors, and half the gradient of log det H, by
-  // Hutchinson's (1990) estimate of tr(H^-1 H_p); `moved`: sweeps where one unknown of phi is.
-  void AddDepthErrors(const FilterSweep& base, const std::vector<FilterSweep>& moved);
+  // Hutchinson's (1990) estimate of tr(H^-1 H_p).
+  void AddDepthErrors(const FilterSweep& base);
   // With depth errors the information that was observed takes the place of what was to be expected,
   // which knows nothing of log det H: by differences of the score. Kept as it was where the data
   // are too few for that.
@@ -64,6 +64,13 @@ class Scoring {
   std::vector<bool> free_;
   Eigen::VectorXd score_, determinant_;
   Eigen::MatrixXd information_, covariance_;
+
+  // Of one linearisation; kept, since fresh pages of memory cost more than what is written there.
+  std::vector<FilterSweep> moved_;  // where one of the own unknowns is
+  std::vector<Eigen::Matrix3d> roots_;
+  Eigen::VectorXd white_;
+  Eigen::MatrixXd slopes_, changes_;  // whitened eps_p, and S_p of what S depends on
+  FilterSweep spare_;
 };
 
 }  // namespace flocklift::internal

@@ -20,7 +20,7 @@ constexpr double kObserved = 0.3;    // of an unknown's sd, for the score's slop
 
 }  // namespace
 
-void Scoring::AddDepthErrors(const FilterSweep& base, const std::vector<FilterSweep>& moved) {
+void Scoring::AddDepthErrors(const FilterSweep& base) {
   const std::span<const double> z = std::span(phi_).subspan(own_);
   const auto errors = static_cast<Eigen::Index>(z.size());
   Eigen::VectorXd gradient = Eigen::Map<const Eigen::VectorXd>(z.data(), errors);  // ~ N(0, 1)
@@ -54,7 +54,7 @@ void Scoring::AddDepthErrors(const FilterSweep& base, const std::vector<FilterSw
             kProbeStep * probes[static_cast<std::size_t>(k)][z];
       }
       const FilterSweep probed = SweepAt(phi);
-      const FilterSweep& from = p > 0 ? moved[static_cast<std::size_t>(p) - 1] : base;
+      const FilterSweep& from = p > 0 ? moved_[static_cast<std::size_t>(p) - 1] : base;
       double sum = 0;
       for (std::size_t i = 0; i < from.innovations.size(); ++i) {
         const Eigen::Vector3d slope =
