@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "simulate/core/check.h"
 #include "tests/reconstruct/fit/flocks.h"
@@ -27,6 +28,24 @@ FilterSweep Sweep(const Trajectories& seen, const FlockNoise& noise,
                   const FilterOptions& options = {}, std::vector<double> theta = {0.05, 0.2}) {
   return RunFilter(options, Linear(), theta, noise,
                    FilterInput(ObservedFlock(seen, seen.fps.value(), 5)));
+}
+
+TEST(FlockFilter, UsesTheMemoryThatItIsGiven) {
+  const Trajectories seen = FlyLinearFlock(4, 30, 5).seen;
+  const FilterInput input(ObservedFlock(seen, seen.fps.value(), 5));
+  const auto sweep = [&](double cohesion, FilterSweep memory) {
+    return RunFilter({}, Linear(), {cohesion, 0.2}, {.diffusion = 4e-3}, input, std::move(memory));
+  };
+  FilterSweep other = sweep(0.3, {});
+  const Innovation* const memory = other.innovations.data();
+  const FilterSweep again = sweep(0.05, std::move(other)), fresh = sweep(0.05, {});
+  EXPECT_EQ(again.innovations.data(), memory);
+  EXPECT_EQ(again.cost, fresh.cost);
+  ASSERT_EQ(again.innovations.size(), fresh.innovations.size());
+  for (std::size_t k = 0; k < fresh.innovations.size(); ++k) {
+    EXPECT_EQ(again.innovations[k].value, fresh.innovations[k].value);
+    EXPECT_EQ(again.innovations[k].covariance, fresh.innovations[k].covariance);
+  }
 }
 
 // One animal alone has no forces: positions are integrated noise, whose joint covariance is known.
