@@ -16,6 +16,7 @@
 #include "reconstruct/fit/fit_setup.h"
 #include "reconstruct/fit/fit_warnings.h"
 #include "reconstruct/fit/fitter.h"
+#include "reconstruct/fit/known_within.h"
 #include "reconstruct/fit/process_model.h"
 #include "reconstruct/fit/radius_choice.h"
 #include "reconstruct/fit/state_space.h"
@@ -221,11 +222,11 @@ double Fitter::Pull() const { return problem_.walls ? 0 : PullToTheMiddle(rows_,
 
 }  // namespace internal
 
-FitResult FitModel(const FitOptions& options, const FitProblem& given,
-                   const Trajectories& trajectories, double fps, std::uint64_t seed, int threads,
-                   const Progress& progress) {
-  CheckOptions(options);
-  Check(fps > 0, "fps must be positive");
+namespace {
+
+FitResult FitByMethod(const FitOptions& options, const FitProblem& given,
+                      const Trajectories& trajectories, double fps, std::uint64_t seed, int threads,
+                      const Progress& progress) {
   FitProblem problem = internal::InScene(given);
   if (problem.scene && problem.model.name == "swarm") {
     throw InputError("--scene", 0, "the noise of a swarm is sought without its surroundings",
@@ -269,6 +270,18 @@ FitResult FitModel(const FitOptions& options, const FitProblem& given,
   fitter.Assume(choice.noise);
   FitResult result = fitter.Run(progress);
   result.warnings.insert(result.warnings.begin(), choice.notes.begin(), choice.notes.end());
+  return result;
+}
+
+}  // namespace
+
+FitResult FitModel(const FitOptions& options, const FitProblem& problem,
+                   const Trajectories& trajectories, double fps, std::uint64_t seed, int threads,
+                   const Progress& progress) {
+  CheckOptions(options);
+  Check(fps > 0, "fps must be positive");
+  FitResult result = FitByMethod(options, problem, trajectories, fps, seed, threads, progress);
+  internal::FlagLooselyKnown(options.known_within, &result);
   return result;
 }
 

@@ -62,6 +62,7 @@ struct FitOptions {
   int global_evaluations = 600;  // of simulated statistics, at most
   int local_evaluations = 250;
   double search_range = 5;  // parameters are sought within this factor of their start
+  double known_within = 0;  // share of itself that 3 sd of a parameter called known may be; 0: any
 };
 
 template <typename Visitor>
@@ -95,6 +96,9 @@ void Describe(Visitor& visit, FitOptions& o) {
   visit("search-range", o.search_range, {.low = 1.01, .high = 1e3}, "",
         "likewise: parameters are sought within this factor of where they start; of less than 1.35 "
         "nothing is known, since all ends near a bound");
+  visit("known-within", o.known_within, {.low = 0, .high = 1}, "",
+        "a parameter of which 3 standard deviations are more than this share of it is flagged as "
+        "not determined too; 0: a weight's sign and its size to a quarter of all forces will do");
 }
 
 // A point that attracts all animals, besides the model's own terms (a scene's [[goal]]).

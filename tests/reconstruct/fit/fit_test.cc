@@ -238,6 +238,26 @@ TEST(Fit, RadiiThroughTheirTapersTogetherWithTheWeights) {
   EXPECT_NEAR(result.noise_sd, 1, 0.1);
 }
 
+// What is known for its sign alone is no longer called determined where more is asked for.
+TEST(Fit, FlagsWhatIsNotKnownToTheShareThatIsAskedFor) {
+  const Trajectories seen = FlyLinearFlock(4, 1500).seen;
+  FitProblem problem;
+  problem.model.name = "linear";
+  problem.free = {"cohesion", "alignment"};
+  const FitResult plain = Fit(problem, seen);
+  const double share = 3 * WeightOf(plain, "alignment").sd / WeightOf(plain, "alignment").estimate;
+  ASSERT_TRUE(WeightOf(plain, "alignment").determined);
+  for (const double factor : {0.99, 1.01}) {
+    FitOptions options;
+    options.known_within = factor * share;
+    const FitResult asked = Fit(problem, seen, options);
+    EXPECT_EQ(asked.weights[1].estimate, plain.weights[1].estimate);
+    EXPECT_EQ(asked.weights[1].determined, factor > 1);
+    EXPECT_EQ(asked.parameters.posterior.determined[1], factor > 1);
+    EXPECT_EQ(Warns(asked, "alignment"), factor < 1);
+  }
+}
+
 // With what is held at the truth no word of it; with what is held elsewhere, its name.
 TEST(Fit, WhatIsHeldAgainstTheMotionIsNamed) {
   const Trajectories seen = FlyLinearFlock(4, 1500).seen;
