@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <new>
+#include <utility>
 
 namespace flocklift {
 namespace {
@@ -32,14 +33,14 @@ void* LargePages::do_allocate(std::size_t bytes, std::size_t alignment) {
 void LargePages::AddBlock(std::size_t bytes) {
   const std::size_t wanted = std::max(bytes, std::min(size_, kMostAhead));
   const std::size_t size = (wanted + kPage - 1) / kPage * kPage;
-  auto* const block = static_cast<std::byte*>(std::aligned_alloc(kPage, size));
+  std::unique_ptr<std::byte, Free> block(static_cast<std::byte*>(std::aligned_alloc(kPage, size)));
   if (block == nullptr) throw std::bad_alloc();
-  blocks_.emplace_back(block);
 #ifdef MADV_HUGEPAGE
-  madvise(block, size, MADV_HUGEPAGE);  // advice: small pages will do
+  madvise(block.get(), size, MADV_HUGEPAGE);  // advice: small pages will do
 #endif
+  blocks_.push_back(std::move(block));
   size_ += size;
-  next_ = block;
+  next_ = blocks_.back().get();
   left_ = size;
 }
 
