@@ -51,7 +51,8 @@ void RunDemo(const DemoCommand& command, const CommonOptions& common) {
   RunCommand run;
   run.track.video = truth.out / "video.mp4";
   run.reconstruct.camera = truth.out / "camera.yaml";
-  run.reconstruct.wingspan = fmt::format("{},{:.6g}", species.wingspan, kWingspanSd * species.wingspan);
+  run.reconstruct.wingspan =
+      fmt::format("{},{:.6g}", species.wingspan, kWingspanSd * species.wingspan);
   run.reconstruct.speed = fmt::format("{},{}", species.speed, kSpeedSd * species.speed);
   RunRun(run, result);
 
