@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -33,14 +34,8 @@ inline int ResolveThreads(int threads) {
 // too. One loop at a time, and no loop inside a loop of the same pool.
 class ThreadPool {
  public:
-  explicit ThreadPool(int threads) : next_(static_cast<std::size_t>(ResolveThreads(threads))) {
-    for (int k = 1; k < ResolveThreads(threads); ++k) workers_.emplace_back([this, k] { Work(k); });
-  }
-  ~ThreadPool() {
-    stop_ = true;
-    Wake();
-    for (std::thread& worker : workers_) worker.join();
-  }
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
@@ -63,7 +58,7 @@ class ThreadPool {
     std::atomic<std::int64_t> failed{chunks};
     std::exception_ptr error;
     std::mutex error_mutex;
-    job_ = [&](int thread) {
+    Run([&](int thread) {
       for (int k = 0; k < shares; ++k) {
         const int share = (thread + k) % shares;
         auto& next = next_[static_cast<std::size_t>(share)].chunk;
@@ -81,12 +76,7 @@ class ThreadPool {
           }
         }
       }
-    };
-    running_ = static_cast<int>(workers_.size());
-    Wake();
-    job_(0);
-    AwaitChange([this] { return running_ == 0; });
-    for (int running; (running = running_) != 0;) running_.wait(running);
+    });
     if (error) std::rethrow_exception(error);
   }
 
@@ -95,29 +85,17 @@ class ThreadPool {
     std::atomic<std::int64_t> chunk{0};
   };
 
-  // Looks for a while before it is worth falling asleep: waking takes longer than many a loop.
-  template <typename Condition>
-  static void AwaitChange(const Condition& changed) {
-    constexpr int kLooks = 2000;
-    for (int look = 0; look < kLooks && !changed(); ++look) __builtin_ia32_pause();
-  }
-  void Wake() {
-    ++generation_;
-    generation_.notify_all();
-  }
-  void Work(int thread) {
-    for (std::uint32_t seen = 0;; ++seen) {
-      AwaitChange([&] { return generation_ != seen; });
-      generation_.wait(seen);
-      if (stop_) return;
-      job_(thread);
-      if (--running_ == 0) running_.notify_one();
-    }
-  }
+  class Cores;
+
+  // Calls job(thread) on each thread and waits for all of them.
+  void Run(std::function<void(int)> job);
+  void Wake();
+  void Work(int thread);
 
   std::vector<std::thread> workers_;
-  std::function<void(int)> job_;  // one loop's work, shared by all threads; by thread
+  std::function<void(int)> job_;  // one loop's work, by thread
   std::vector<Next> next_;        // of each thread's share
+  std::unique_ptr<Cores> cores_;
   std::atomic<std::uint32_t> generation_{0};
   std::atomic<int> running_{0};
   std::atomic<bool> stop_{false};

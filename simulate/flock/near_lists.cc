@@ -107,17 +107,27 @@ std::uint32_t ListNear(const CellGrid<T>& grid, const Bodies<T>& bodies, const N
 }
 
 template <typename T>
+void MakeRoom(std::size_t n, std::vector<BodyRow<T>>* rows) {
+  rows->resize(n);
+  rows->resize(n + kEight, {T(kFarAway), T(kFarAway), T(kFarAway), T(0), T(0), T(0), T(0), T(0)});
+}
+
+template <typename T>
+void FillRows(const Bodies<T>& bodies, std::size_t first, std::size_t last,
+              std::vector<BodyRow<T>>* rows) {
+  for (std::size_t k = first; k < last; ++k) {
+    (*rows)[k] = {bodies.x[k],  bodies.y[k],  bodies.z[k],  T(0),
+                  bodies.vx[k], bodies.vy[k], bodies.vz[k], T(0)};
+  }
+}
+
+template <typename T>
 void FillRows(const Bodies<T>& bodies, ThreadPool* pool, std::vector<BodyRow<T>>* rows) {
-  rows->resize(bodies.size());
-  rows->resize(bodies.size() + kEight,
-               {T(kFarAway), T(kFarAway), T(kFarAway), T(0), T(0), T(0), T(0), T(0)});
+  MakeRoom(bodies.size(), rows);
   pool->For(0, static_cast<std::int64_t>(bodies.size()), kListGrain,
             [&](std::int64_t first, std::int64_t last) {
-              for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last);
-                   ++k) {
-                (*rows)[k] = {bodies.x[k],  bodies.y[k],  bodies.z[k],  T(0),
-                              bodies.vx[k], bodies.vy[k], bodies.vz[k], T(0)};
-              }
+              FillRows(bodies, static_cast<std::size_t>(first), static_cast<std::size_t>(last),
+                       rows);
             });
 }
 
@@ -127,7 +137,13 @@ template std::uint32_t ListNear(const CellGrid<float>&, const Bodies<float>&,
 template std::uint32_t ListNear(const CellGrid<double>&, const Bodies<double>&,
                                 const NearReach<double>&, const KernelVariant*, std::uint32_t,
                                 std::uint32_t, NearLists*);
+template void MakeRoom(std::size_t, std::vector<BodyRow<float>>*);
+template void FillRows(const Bodies<float>&, std::size_t, std::size_t,
+                       std::vector<BodyRow<float>>*);
 template void FillRows(const Bodies<float>&, ThreadPool*, std::vector<BodyRow<float>>*);
+template void MakeRoom(std::size_t, std::vector<BodyRow<double>>*);
+template void FillRows(const Bodies<double>&, std::size_t, std::size_t,
+                       std::vector<BodyRow<double>>*);
 template void FillRows(const Bodies<double>&, ThreadPool*, std::vector<BodyRow<double>>*);
 
 }  // namespace flocklift

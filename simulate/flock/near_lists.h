@@ -68,6 +68,13 @@ struct alignas(8 * sizeof(T)) BodyRow {
   Vec3<T> Position() const { return {x, y, z}; }
   Vec3<T> Velocity() const { return {vx, vy, vz}; }
 };
+// Room for the rows of n animals, with nobody behind them.
+template <typename T>
+void MakeRoom(std::size_t n, std::vector<BodyRow<T>>* rows);
+// Those of the animals first .. last - 1, or of all.
+template <typename T>
+void FillRows(const Bodies<T>& bodies, std::size_t first, std::size_t last,
+              std::vector<BodyRow<T>>* rows);
 template <typename T>
 void FillRows(const Bodies<T>& bodies, ThreadPool* pool, std::vector<BodyRow<T>>* rows);
 

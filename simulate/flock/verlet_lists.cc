@@ -26,77 +26,98 @@ struct Moves {
 template <typename T>
 struct Range {
   T low, high;
+  bool finite;
 };
 
-// The least and the greatest of first .. last - 1; over whole lanes first, the order does not
-// count.
+// The least and the greatest of first .. last - 1, and whether all are finite; over whole lanes
+// first, the order does not count.
 template <typename T, typename Column>
 Range<T> RangeOf(const Column& values, std::size_t first, std::size_t last) {
-  T low[kLanes], high[kLanes];
+  T low[kLanes], high[kLanes], zero[kLanes] = {};
   std::fill(low, low + kLanes, values[first]);
   std::fill(high, high + kLanes, values[first]);
   const auto take = [&](std::size_t lane, T value) {
     low[lane] = value < low[lane] ? value : low[lane];
     high[lane] = value > high[lane] ? value : high[lane];
+    zero[lane] += value - value;  // 0, unless it is not finite
   };
   std::size_t k = first;
   for (; k + kLanes <= last; k += kLanes) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) take(lane, values[k + lane]);
   }
   for (; k < last; ++k) take(0, values[k]);
-  return {*std::min_element(low, low + kLanes), *std::max_element(high, high + kLanes)};
+  return {*std::min_element(low, low + kLanes), *std::max_element(high, high + kLanes),
+          std::all_of(zero, zero + kLanes, [](T value) { return value == T(0); })};
 }
 
-// The largest |v - middle|^2 of first .. last - 1; infinite where one is no finite number.
-template <typename T, typename Column>
-T FarthestSquared(const Column (&v)[3], const Vec3<T>& middle, std::size_t first,
-                  std::size_t last) {
-  T most[kLanes] = {}, sum[kLanes] = {};  // what is no number shows in the sum
-  const auto take = [&](std::size_t lane, std::size_t k) {
-    const T x = v[0][k] - middle.x, y = v[1][k] - middle.y, z = v[2][k] - middle.z;
-    const T squared = x * x + y * y + z * z;
-    most[lane] = squared > most[lane] ? squared : most[lane];
-    sum[lane] += squared;
-  };
-  std::size_t k = first;
-  for (; k + kLanes <= last; k += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) take(lane, k + lane);
+// The bounding box of vectors.
+template <typename T>
+struct Box {
+  std::array<Range<T>, 3> axes;
+
+  bool Finite() const { return axes[0].finite && axes[1].finite && axes[2].finite; }
+  Vec3<T> Middle() const {
+    const auto middle = [this](int axis) { return T(0.5) * (axes[axis].low + axes[axis].high); };
+    return {middle(0), middle(1), middle(2)};
   }
-  for (; k < last; ++k) take(0, k);
-  const bool finite =
-      std::all_of(sum, sum + kLanes, [](const T& value) { return std::isfinite(value); });
-  return finite ? *std::max_element(most, most + kLanes) : std::numeric_limits<T>::infinity();
-}
+  // No vector is farther from the middle; infinite where one is no finite number.
+  double HalfDiagonal() const {
+    double squared = 0;
+    for (const Range<T>& axis : axes) {
+      const double half = 0.5 * (static_cast<double>(axis.high) - static_cast<double>(axis.low));
+      squared += half * half;
+    }
+    return Finite() ? std::sqrt(squared) : std::numeric_limits<double>::infinity();
+  }
+};
 
-// The largest distance from the middle of their bounding box; infinite where one is no finite
-// number.
-template <typename T, typename Column>
-double Farthest(const Column (&v)[3], std::size_t n, ThreadPool* pool) {
-  const auto chunk = [](std::int64_t first) {
-    return static_cast<std::size_t>(first / kAgentGrain);
-  };
+std::size_t Chunk(std::int64_t first) { return static_cast<std::size_t>(first / kListGrain); }
+
+// Of n > 0 vectors; also(first, last) is called on the way, once for each chunk of kListGrain.
+template <typename T, typename Column, typename Also>
+Box<T> BoxOf(const Column (&v)[3], std::size_t n, ThreadPool* pool, const Also& also) {
   const auto count = static_cast<std::int64_t>(n);
-  std::vector<std::array<Range<T>, 3>> ranges(chunk(count + kAgentGrain - 1));
-  pool->For(0, count, kAgentGrain, [&](std::int64_t first, std::int64_t last) {
+  std::vector<Box<T>> boxes(Chunk(count + kListGrain - 1));
+  pool->For(0, count, kListGrain, [&](std::int64_t first, std::int64_t last) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      ranges[chunk(first)][axis] =
+      boxes[Chunk(first)].axes[axis] =
           RangeOf<T>(v[axis], static_cast<std::size_t>(first), static_cast<std::size_t>(last));
     }
+    also(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
   });
-  T middle[3];
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Range<T> all = ranges[0][axis];
-    for (const auto& range : ranges) {
-      all.low = std::min(all.low, range[axis].low);
-      all.high = std::max(all.high, range[axis].high);
+  Box<T> all = boxes[0];
+  for (const Box<T>& box : boxes) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Range<T>& range = all.axes[axis];
+      range.low = std::min(range.low, box.axes[axis].low);
+      range.high = std::max(range.high, box.axes[axis].high);
+      range.finite = range.finite && box.axes[axis].finite;
     }
-    middle[axis] = T(0.5) * (all.low + all.high);
   }
-  std::vector<T> squares(ranges.size());
-  pool->For(0, count, kAgentGrain, [&](std::int64_t first, std::int64_t last) {
-    squares[chunk(first)] =
-        FarthestSquared<T>(v, {middle[0], middle[1], middle[2]}, static_cast<std::size_t>(first),
-                           static_cast<std::size_t>(last));
+  return all;
+}
+
+// The largest distance of a vector from the middle of their box.
+template <typename T, typename Column>
+double Farthest(const Column (&v)[3], std::size_t n, const Box<T>& box, ThreadPool* pool) {
+  if (!box.Finite()) return std::numeric_limits<double>::infinity();
+  const auto count = static_cast<std::int64_t>(n);
+  const Vec3<T> middle = box.Middle();
+  std::vector<T> squares(Chunk(count + kListGrain - 1));
+  pool->For(0, count, kListGrain, [&](std::int64_t first, std::int64_t last) {
+    T most[kLanes] = {};
+    const auto take = [&](std::size_t lane, std::size_t k) {
+      const T x = v[0][k] - middle.x, y = v[1][k] - middle.y, z = v[2][k] - middle.z;
+      const T squared = x * x + y * y + z * z;
+      most[lane] = squared > most[lane] ? squared : most[lane];
+    };
+    auto k = static_cast<std::size_t>(first);
+    const auto end = static_cast<std::size_t>(last);
+    for (; k + kLanes <= end; k += kLanes) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) take(lane, k + lane);
+    }
+    for (; k < end; ++k) take(0, k);
+    squares[Chunk(first)] = *std::max_element(most, most + kLanes);
   });
   return std::sqrt(static_cast<double>(*std::max_element(squares.begin(), squares.end())));
 }
@@ -130,9 +151,17 @@ bool VerletLists<T>::Hold(const NearReach<T>& reach, const KernelVariant* kernel
                           const Bodies<T>& now) {
   if (listed_.straight < reach.straight || listed_.manhattan < reach.manhattan) return false;
   const Moves<T> moves[3] = {{now.x, x_}, {now.y, y_}, {now.z, z_}};
-  const double nearer = 2 * kMoveMargin * Farthest<T>(moves, now.size(), pool);
-  if (reach.straight + nearer > listed_.straight ||
-      reach.manhattan + std::sqrt(3.0) * nearer > listed_.manhattan) {
+  MakeRoom(now.size(), &rows_);
+  const Box<T> box = BoxOf<T>(moves, now.size(), pool, [&](std::size_t first, std::size_t last) {
+    FillRows(now, first, last, &rows_);
+  });
+  const auto hold_after = [&](double farthest) {
+    const double nearer = 2 * kMoveMargin * farthest;
+    return reach.straight + nearer <= listed_.straight &&
+           reach.manhattan + std::sqrt(3.0) * nearer <= listed_.manhattan;
+  };
+  // Mostly the box tells, which saves another pass.
+  if (!hold_after(box.HalfDiagonal()) && !hold_after(Farthest(moves, now.size(), box, pool))) {
     return false;
   }
   if (loaded_) {  // as they were made, in the order that is there already
@@ -165,8 +194,8 @@ void VerletLists<T>::Update(const NearReach<T>& reach, const KernelVariant* kern
   if (!Hold(reach, kernel, pool, herd->now)) {
     Renew(reach, pool, herd);
     Make(kernel, pool, herd->grid, herd->now);
+    FillRows(herd->now, pool, &rows_);
   }
-  FillRows(herd->now, pool, &rows_);
 }
 
 template <typename T>
@@ -177,7 +206,8 @@ bool VerletLists<T>::UpdateIfWorth(const NearReach<T>& reach, double dt,
     listed_ = {T(-1), T(-1)};
     const Bodies<T>& now = herd->now;
     const T* const velocities[3] = {now.vx.data(), now.vy.data(), now.vz.data()};
-    const double nearer = 2 * dt * Farthest<T>(velocities, now.size(), pool);  // in a step
+    const Box<T> box = BoxOf<T>(velocities, now.size(), pool, [](std::size_t, std::size_t) {});
+    const double nearer = 2 * dt * Farthest(velocities, now.size(), box, pool);  // in a step
     if (!(kLeastSteps * nearer <= skin_ * reach.Farthest())) return false;
     Renew(reach, pool, herd);
     if (MeanNeighbours(herd->grid, herd->size()) > kMostNeighbours) {
@@ -185,8 +215,8 @@ bool VerletLists<T>::UpdateIfWorth(const NearReach<T>& reach, double dt,
       return false;
     }
     Make(kernel, pool, herd->grid, herd->now);
+    FillRows(herd->now, pool, &rows_);
   }
-  FillRows(herd->now, pool, &rows_);
   return true;
 }
 

@@ -53,6 +53,7 @@ class VerletLists {
   void Load(StateReader* in);
 
  private:
+  // Fills the rows where they do.
   bool Hold(const NearReach<T>& reach, const KernelVariant* kernel, ThreadPool* pool,
             const Bodies<T>& now);
   void Renew(const NearReach<T>& reach, ThreadPool* pool, Herd<T>* herd);
