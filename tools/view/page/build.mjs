@@ -5,9 +5,15 @@
 
 import { build } from 'esbuild';
 import { copyFile } from 'node:fs/promises';
-import { join } from 'node:path';
+import { join, resolve } from 'node:path';
 
 const out = process.argv[2];
+// Of three only what calculates: its renderers are more than all the rest, and none is used.
+const core = {
+  name: 'core',
+  setup: ({ onResolve }) => onResolve({ filter: /^three$/ }, () => ({
+    path: resolve('node_modules/three/build/three.core.js'), sideEffects: false })),
+};
 await build({
   entryPoints: { page: 'src/main.tsx' },
   outdir: out,
@@ -18,6 +24,7 @@ await build({
   jsx: 'automatic',
   jsxImportSource: 'preact',
   legalComments: 'eof',
+  plugins: [core],
   logLevel: 'warning',
 });
 await copyFile('src/page.html', join(out, 'page.html'));

@@ -59,7 +59,7 @@ const scenes = [
   { ...away, view: 'side', bars: true, selected: 1, birdScale: 4 },
   { ...away, view: 'orbit', ghost: 'before', dark: false, birdScale: 4 },
 ];
-for (const choices of scenes) {
+async function compare(choices) {
   const [soft, card] = await Promise.all(pages.map((opened) => blocks(opened, choices)));
   assert.equal(soft.length, card.length);
   let coloured = 0;
@@ -74,6 +74,25 @@ for (const choices of scenes) {
   assert.ok(apart < 0.1 * coloured, words);
   console.log('ok: ' + words);
 }
+for (const choices of scenes) await compare(choices);
+
+// Without being asked to, it draws again.
+await pages[1].page.evaluate(async () => {
+  const { run, flight } = window.flocklift;
+  const { canvas } = flight.space;
+  const card = canvas.getContext('webgl2').getExtension('WEBGL_lose_context');
+  const event = (name) => new Promise((resolve) => canvas.addEventListener(name, resolve, { once: true }));
+  const [lost, restored] = [event('webglcontextlost'), event('webglcontextrestored')];
+  card.loseContext();
+  await lost;
+  await new Promise((resolve) => setTimeout(resolve)); // the page has heard of it too
+  const drawn = new Promise((resolve) => run.clock.onDraw(resolve));
+  card.restoreContext();
+  await restored;
+  await drawn;
+});
+await compare(scenes[0]);
+console.log('ok: a card that was lost for a while');
 for (const { complaints } of pages) {
   assert.deepEqual(complaints.filter((text) => !/GPU stall due to ReadPixels/.test(text)), []);
 }

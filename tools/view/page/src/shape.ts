@@ -42,10 +42,25 @@ export class Shape {
   }
 }
 
-// What the painters have in common. `inWorld` is the matrix of the world's shapes.
+export interface Placed {
+  shape: Shape;
+  matrix: THREE.Matrix4; // to the scene
+}
+
+// What the painters have in common. The picture's size is in its own pixels.
 export interface Painter {
-  paint(shapes: { shape: Shape; matrix: THREE.Matrix4 }[], camera: THREE.PerspectiveCamera,
-    back: string, width: number, height: number, ratio: number): void;
+  paint(placed: Placed[], camera: THREE.PerspectiveCamera, back: string, width: number, height: number): void;
+}
+
+// Those that are seen, in the order of their drawing: what shines through comes last.
+export const inOrder = (placed: Placed[]): Placed[] =>
+  placed
+    .filter(({ shape }) => shape.visible && shape.count > 0)
+    .sort((a, b) => Number(a.shape.opacity < 1) - Number(b.shape.opacity < 1));
+
+export function resize(canvas: HTMLCanvasElement, width: number, height: number): void {
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
 }
 
 const pack = (r: number, g: number, b: number): number => ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;

@@ -7,7 +7,7 @@
 
 import * as THREE from 'three';
 
-import { packed, type Painter, type Shape } from './shape';
+import { inOrder, packed, resize, type Painter, type Placed, type Shape } from './shape';
 
 export class SoftPainter implements Painter {
   private flat: CanvasRenderingContext2D;
@@ -23,31 +23,23 @@ export class SoftPainter implements Painter {
     this.flat = canvas.getContext('2d', { willReadFrequently: true, alpha: false }) as CanvasRenderingContext2D;
   }
 
-  paint(shapes: { shape: Shape; matrix: THREE.Matrix4 }[], camera: THREE.PerspectiveCamera,
-    back: string, width: number, height: number, ratio: number): void {
-    this.resize(Math.max(Math.round(width * ratio), 1), Math.max(Math.round(height * ratio), 1));
+  paint(placed: Placed[], camera: THREE.PerspectiveCamera, back: string, width: number, height: number): void {
+    resize(this.canvas, width, height);
+    this.fit(width, height);
     this.pixels.fill(packed(back));
     this.depth.fill(1);
     camera.updateMatrixWorld();
     this.transform.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
     const all = new THREE.Matrix4();
-    for (const translucent of [false, true]) {
-      for (const { shape, matrix } of shapes) {
-        if (!shape.visible || shape.count === 0 || shape.opacity < 1 !== translucent) continue;
-        this.project(shape, all.multiplyMatrices(this.transform, matrix).elements);
-        if (shape.kind === 'lines') this.drawLines(shape);
-        else this.drawTriangles(shape);
-      }
+    for (const { shape, matrix } of inOrder(placed)) {
+      this.project(shape, all.multiplyMatrices(this.transform, matrix).elements);
+      if (shape.kind === 'lines') this.drawLines(shape);
+      else this.drawTriangles(shape);
     }
     this.flat.putImageData(this.image, 0, 0);
   }
 
-  private resize(width: number, height: number): void {
-    const { canvas } = this;
-    if (canvas.width !== width || canvas.height !== height) {
-      canvas.width = width;
-      canvas.height = height;
-    }
+  private fit(width: number, height: number): void {
     if (this.width === width && this.height === height) return;
     this.width = width;
     this.height = height;

@@ -13,7 +13,7 @@ import { GlPainter } from './glPainter';
 import { drawsInSoftware } from './graphics';
 import { centreOf, poseAt } from './lens';
 import { Lines } from './lines';
-import type { Painter, Shape } from './shape';
+import type { Painter, Placed, Shape } from './shape';
 import { SoftPainter } from './softPainter';
 import type { ViewName } from './state';
 import type { Bounds, CameraInfo } from './types';
@@ -75,6 +75,7 @@ export class Space {
       if (isCrosshair(e)) this.controls.enabled = this.turns;
     });
     new ResizeObserver(redraw).observe(canvas);
+    canvas.addEventListener('webglcontextrestored', redraw);
     this.look('orbit', 1);
   }
 
@@ -232,12 +233,13 @@ export class Space {
   render(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
-    const shapes = this.shapes.map((shape) => ({ shape, matrix: this.world.clone().multiply(shape.matrix) }));
-    if (this.frustum) {
-      shapes.push({ shape: this.frustum.shape, matrix: this.world.clone().multiply(this.frustum.shape.matrix) });
-    }
-    if (this.grid) shapes.push({ shape: this.grid.shape, matrix: this.grid.shape.matrix });
-    this.painter.paint(shapes, this.camera, this.back, width, height, this.ratio(width * height));
+    const inWorld = (shape: Shape): Placed => ({ shape, matrix: this.world.clone().multiply(shape.matrix) });
+    const placed = this.shapes.map(inWorld);
+    if (this.frustum) placed.push(inWorld(this.frustum.shape));
+    if (this.grid) placed.push({ shape: this.grid.shape, matrix: this.grid.shape.matrix });
+    const ratio = this.ratio(width * height);
+    this.painter.paint(placed, this.camera, this.back, Math.max(Math.round(width * ratio), 1),
+      Math.max(Math.round(height * ratio), 1));
   }
 
   // Of drawn pixels to those of the page. Where the processor draws many of them, they are coarse
