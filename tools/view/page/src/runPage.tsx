@@ -4,7 +4,7 @@
 // The page of a run: footage and flock side by side, curves and the play bar under them, and a
 // panel for looking, solving, mending or sketching.
 
-import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
+import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
 
 import { Charts } from './charts';
 import { Crosshair } from './crosshair';
@@ -153,7 +153,8 @@ export function RunPage({ run }: { run: Run }) {
   const [drawn, setDrawn] = useState(false);
   const hasFlock = session.has.before || run.versions.after > 0;
 
-  useEffect(() => {
+  // At once: by useEffect() it would be after a picture of the empty page.
+  useLayoutEffect(() => {
     listenToKeys(keys);
     const handle: Record<string, unknown> = { run }; // for tests
     if (film.current) {
