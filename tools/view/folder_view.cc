@@ -50,15 +50,10 @@ class FolderView::Impl {
                  .failed =
                      [this](auto job, const std::string& reason) {
                        bus_.Publish("solve", {{"job", job}, {"state", "failed"}, {"text", reason}});
-                     }}) {
-    background_.Add([this](const Progress& alive) {
-      reader_.Run(alive);
-      RankSuspects();
-    });
-  }
+                     }}) {}
 
   void Serve(HttpServer* server) {
-    ServePage(server, &bus_);
+    ServePage(server, &bus_, [this] { std::call_once(is_heard_, [this] { ReadOn(); }); });
     server->Get("/api/session", [this](const HttpRequest&) {
       const std::shared_lock lock(mutex_);
       return JsonReply(data_.Session());
@@ -90,6 +85,14 @@ class FolderView::Impl {
   }
 
  private:
+  // A browser that starts needs every core until it shows something: pages listen from then on.
+  void ReadOn() {
+    background_.Add([this](const Progress& alive) {
+      reader_.Run(alive);
+      RankSuspects();
+    });
+  }
+
   HttpReply Window(const HttpRequest& request) {
     background_.GiveWay();
     const int first = request.Number("first"), last = request.Number("last");
@@ -272,6 +275,7 @@ class FolderView::Impl {
   std::atomic<std::size_t> told_animals_;
   EventBus bus_;
   LateReader reader_;
+  std::once_flag is_heard_;
   Solver solver_;  // these are the last, so that they stop before what they tell goes
   Background background_;
 };

@@ -25,7 +25,7 @@ nlohmann::ordered_json BodyOf(const HttpRequest& request) {
   return json;
 }
 
-void ServePage(HttpServer* server, EventBus* bus) {
+void ServePage(HttpServer* server, EventBus* bus, const std::function<void()>& listens) {
   const PageFiles page = EmbeddedPage();
   const auto file = [server](const std::string& path, const std::string& type,
                              std::string_view text) {
@@ -36,8 +36,10 @@ void ServePage(HttpServer* server, EventBus* bus) {
   file("/", "text/html; charset=utf-8", page.html);
   file("/page.js", "text/javascript; charset=utf-8", page.script);
   file("/page.css", "text/css; charset=utf-8", page.style);
-  server->Stream("/api/events", "text/event-stream",
-                 [bus](const HttpRequest&) { return bus->Subscribe(); });
+  server->Stream("/api/events", "text/event-stream", [bus, listens](const HttpRequest&) {
+    listens();
+    return bus->Subscribe();
+  });
 }
 
 }  // namespace flocklift

@@ -6,6 +6,7 @@
 #ifndef FLOCKLIFT_TOOLS_VIEW_PAGE_ROUTES_H_
 #define FLOCKLIFT_TOOLS_VIEW_PAGE_ROUTES_H_
 
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "tools/view/event_bus.h"
@@ -20,7 +21,9 @@ HttpReply BinaryReply(std::string bytes);
 nlohmann::ordered_json BodyOf(const HttpRequest& request);
 
 // "/", "/page.js", "/page.css", and "/api/events" from the bus, which must outlive the server.
-void ServePage(HttpServer* server, EventBus* bus);
+// Calls `listens` when a page begins to.
+void ServePage(
+    HttpServer* server, EventBus* bus, const std::function<void()>& listens = [] {});
 
 }  // namespace flocklift
 

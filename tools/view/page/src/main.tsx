@@ -27,20 +27,23 @@ const store = new Store({
   faults: [], dark: systemIsDark(),
 });
 
+function listenTo(run: Run): void {
+  listen({
+    data: (versions: Versions) => run.setVersions(versions),
+    edits: (edits: Edits) => run.setEdits(edits),
+    solve: (news: SolveNews) => run.setSolve(news),
+    suspects: () => void run.askSuspects().catch((error: unknown) => store.fail(error)),
+    reading: (news: Reading) => store.set({ reading: news.text, faults: news.faults }),
+  }, (gone) => store.set({ gone }));
+}
+
 function showRun(source: Source, root: HTMLElement): void {
   const { session } = source;
   store.set({ frame: session.frames.first,
     table: session.versions.after > 0 ? 'after' : 'before' });
   const run = new Run(source, store);
-  if (!session.exported) {
-    listen({
-      data: (versions: Versions) => run.setVersions(versions),
-      edits: (edits: Edits) => run.setEdits(edits),
-      solve: (news: SolveNews) => run.setSolve(news),
-      suspects: () => void run.askSuspects().catch((error: unknown) => store.fail(error)),
-      reading: (news: Reading) => store.set({ reading: news.text, faults: news.faults }),
-    }, (gone) => store.set({ gone }));
-  }
+  // The server's reading behind the scenes begins when it is listened to.
+  if (!session.exported) void run.clock.drawn.then(() => listenTo(run));
   // What the first pictures need is under way while the page is built.
   run.flock().at(session.frames.first);
   if (session.has.boxes) run.boxes.at(session.frames.first);
