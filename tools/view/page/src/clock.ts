@@ -7,6 +7,7 @@ import type { Store } from './state';
 
 const PATIENCE = 300; // ms that a drawing waits for what it needs
 const SOON = 100; // ms
+const LATEST = 3000; // ms
 
 export class Clock {
   private last = 0;
@@ -17,11 +18,14 @@ export class Clock {
   private asked: number; // the frame that is waited for,
   private since: number; // and since when [ms]
   private timer = 0;
-  private haveDrawn: () => void = () => undefined;
+  private readonly latest = performance.now() + LATEST;
+  private haveDrawn: (() => void) | undefined; // until they are told
+  private isInSight = false;
   // The frame to draw: the one that the person wants, or, while that changes faster than frames come,
   // one of a moment ago.
   frame: number;
-  // Once the first pictures are in sight: what they do not need can wait for them.
+  // Once the first pictures are in sight, whole if that does not take too long: what they do not need
+  // can wait for them.
   readonly drawn = new Promise<void>((resolve) => (this.haveDrawn = resolve));
 
   constructor(
@@ -110,7 +114,11 @@ export class Clock {
       for (const draw of this.drawers) draw();
       this.dirty = this.frame !== wanted;
       this.ask(wanted);
-      if (this.drawers.length > 0) setTimeout(this.haveDrawn);
+      this.isInSight = this.drawers.length > 0;
+    }
+    if (this.haveDrawn && this.isInSight && (this.has(this.frame) || now > this.latest)) {
+      setTimeout(this.haveDrawn);
+      this.haveDrawn = undefined;
     }
     requestAnimationFrame((next) => this.tick(next));
   }
