@@ -34,6 +34,7 @@ void ServePage(HttpServer* server, EventBus* bus, const std::function<void()>& l
     });
   };
   file("/", "text/html; charset=utf-8", page.html);
+  file("/first.js", "text/javascript; charset=utf-8", page.first);
   file("/page.js", "text/javascript; charset=utf-8", page.script);
   file("/page.css", "text/css; charset=utf-8", page.style);
   server->Stream("/api/events", "text/event-stream", [bus, listens](const HttpRequest&) {

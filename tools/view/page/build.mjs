@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// node build.mjs OUT: page.html, page.js and page.css, with every package bundled in.
+// node build.mjs OUT: page.html, first.js, page.js and page.css, with every package bundled in.
 
 import { build } from 'esbuild';
 import { copyFile } from 'node:fs/promises';
@@ -15,7 +15,7 @@ const core = {
     path: resolve('node_modules/three/build/three.core.js'), sideEffects: false })),
 };
 await build({
-  entryPoints: { page: 'src/main.tsx' },
+  entryPoints: { first: 'src/first.ts', page: 'src/main.tsx' },
   outdir: out,
   bundle: true,
   minify: true,

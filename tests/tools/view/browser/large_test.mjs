@@ -65,14 +65,22 @@ makeFiles(0);
     const { EventSource } = globalThis;
     globalThis.EventSource = class extends EventSource {
       constructor(address) {
-        globalThis.drawnBefore = document.querySelector('.flight canvas')?.dataset.frame;
+        globalThis.drawnBefore = String(document.querySelector('.flight canvas')?.dataset.frame);
         super(address);
       }
     };
   });
+  // What there is to show is asked for once, while the page's script is still on its way.
+  const asked = [];
+  window.on('request', (request) => asked.push(new URL(request.url()).pathname.split('/').slice(2).join('/')));
+  await window.route('**/page.js', async (route) => {
+    await until('the question', () => asked.includes('api/session'));
+    await route.continue();
+  });
   const { page, complaints } = await loadPage(window, server.address);
   await until('the page', () => loaded(page));
-  assert.equal(await until('listening', () => page.evaluate(() => window.drawnBefore)), '1');
+  assert.notEqual(await until('listening', () => page.evaluate(() => window.drawnBefore)), 'undefined');
+  assert.equal(asked.filter((path) => path === 'api/session').length, 1);
   say('the page shows its first picture before anything else is read');
   for (const frame of [1, FRAMES, 500, 37]) {
     const depth = await until('frame ' + frame, () => depthAt(page, 7, frame));

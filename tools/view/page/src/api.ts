@@ -21,9 +21,11 @@ async function checked(response: Response): Promise<Response> {
   throw new Refusal(reason);
 }
 
-export async function getJson<T>(path: string): Promise<T> {
-  return (await checked(await fetch(address(path)))).json() as Promise<T>;
+// The answer to what was asked for, or asked for now.
+export async function jsonOf<T>(answer: Promise<Response>): Promise<T> {
+  return (await checked(await answer)).json() as Promise<T>;
 }
+export const getJson = <T>(path: string): Promise<T> => jsonOf(fetch(address(path)));
 
 export async function getBytes(path: string, signal?: AbortSignal): Promise<ArrayBuffer> {
   return (await checked(await fetch(address(path), { signal }))).arrayBuffer();

@@ -3,7 +3,7 @@
 //
 // What the browser can draw with: asked once, for asking takes a while.
 
-interface Means {
+export interface Means {
   webgl: boolean;
   software: boolean;
 }
@@ -22,11 +22,12 @@ function find(): Means {
   }
 }
 
-export const hasWebGL = (): boolean => (means ??= find()).webgl;
+export const findMeans = (): Means => (means ??= window.asked?.means ?? find());
+export const hasWebGL = (): boolean => findMeans().webgl;
 
 // Whether the processor draws, for want of a graphics card. With #card in the address what there is
 // of a card draws all the same, so that the two ways can be compared.
-export const drawsInSoftware = (): boolean => (means ??= find()).software && location.hash !== '#card';
+export const drawsInSoftware = (): boolean => findMeans().software && location.hash !== '#card';
 
 // The context of a flat picture. Without a graphics card it is kept in plain memory: a thousand
 // lines take the browser's own emulation of a card seconds.

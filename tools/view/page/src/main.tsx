@@ -9,8 +9,7 @@ import './style.css';
 
 import { render } from 'preact';
 
-import { getJson, listen } from './api';
-import { hasWebGL } from './graphics';
+import { getJson, jsonOf, listen } from './api';
 import { Run } from './run';
 import { RunPage } from './runPage';
 import { ScenePage } from './scenePage';
@@ -54,9 +53,7 @@ async function start(root: HTMLElement): Promise<void> {
   applyTheme(store);
   const exported = exportedSource();
   if (exported) return showRun(exported, root);
-  const asked = getJson<Session>('api/session');
-  hasWebGL(); // takes a while, and so does the answer
-  const session = await asked;
+  const session = await (window.asked ? jsonOf<Session>(window.asked.session) : getJson<Session>('api/session'));
   document.title = `${session.name} – flocklift`;
   if (session.kind === 'run') return showRun(serverSource(session), root);
   store.set({ mode: 'steer', playing: true, trails: 12 });
