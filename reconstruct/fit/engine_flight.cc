@@ -8,13 +8,17 @@
 #include <stdexcept>
 #include <utility>
 
+#include "reconstruct/fit/crowd_start.h"
 #include "reconstruct/fit/goal_groups.h"
 #include "simulate/core/check.h"
+#include "simulate/core/rng.h"
 #include "simulate/flock/morph_motion.h"
 #include "simulate/flock/population.h"
 
 namespace flocklift::internal {
 namespace {
+
+constexpr std::uint32_t kStartStream = 0x57a27;  // of random numbers (simulate/core/rng.h)
 
 // No more of the scene than its species' start needs.
 Scene StartOf(Scene scene, const std::string& model) {
@@ -25,11 +29,12 @@ Scene StartOf(Scene scene, const std::string& model) {
   return scene;
 }
 
-// The flock as it is in the data's frame `index`.
+// The flock as it is in the data's frame `start->first`.
 void TakeFlock(const std::vector<FramePositions>& frames, Trajectories trajectories, double fps,
                FlightStart* start) {
   Swarm& swarm = start->swarm;
   const double radius = swarm.radius.empty() ? 0 : swarm.radius.front();
+  const bool is_crowd = swarm.spec.name == "crowd";
   swarm.position.clear();
   swarm.velocity.clear();
   swarm.cruising_speed.clear();
@@ -38,28 +43,34 @@ void TakeFlock(const std::vector<FramePositions>& frames, Trajectories trajector
   std::vector<Id> ids;
   for (const Trajectory& trajectory : trajectories.trajectories) {
     double speed = 0;
-    const TrajectoryPoint* now = nullptr;
-    for (const TrajectoryPoint& point : trajectory.points) {
+    std::optional<std::size_t> now;
+    for (std::size_t k = 0; k < trajectory.points.size(); ++k) {
+      const TrajectoryPoint& point = trajectory.points[k];
       speed += Norm(point.velocity) / static_cast<double>(trajectory.points.size());
-      if (point.frame == frame) now = &point;
+      if (point.frame == frame) now = k;
     }
-    if (now == nullptr) continue;
+    if (!now) continue;
+    ArrivalVelocity velocity{.mean = trajectory.points[*now].velocity, .doubt = {}};
+    if (is_crowd) velocity = VelocityOfArrival(trajectory.points, *now, fps, start->substeps);
     ids.push_back(trajectory.id);
-    swarm.position.push_back(now->position);
-    swarm.velocity.push_back(now->velocity);
+    swarm.position.push_back(trajectory.points[*now].position);
+    swarm.velocity.push_back(velocity.mean);
     swarm.cruising_speed.push_back(speed);
+    start->velocity_doubt.push_back(velocity.doubt);
   }
   swarm.radius.assign(ids.size(), radius);
   start->world.time = (frame - 1) / fps;
-  if (swarm.spec.name != "crowd") return;
+  if (!is_crowd) return;
   const std::vector<std::size_t> order =
       OrderByGoal(start->world, swarm.species, frames,
                   start->world.time - static_cast<double>(start->first) / fps, fps, ids);
   const Swarm unordered = swarm;
+  const std::vector<Vec3d> doubt = start->velocity_doubt;
   for (std::size_t k = 0; k < order.size(); ++k) {
     swarm.position[k] = unordered.position[order[k]];
     swarm.velocity[k] = unordered.velocity[order[k]];
     swarm.cruising_speed[k] = unordered.cruising_speed[order[k]];
+    start->velocity_doubt[k] = doubt[order[k]];
   }
 }
 
@@ -135,10 +146,12 @@ FlightStart MakeFlightStart(const FitOptions& options, const FitProblem& problem
     start.steps_before = std::max<std::int64_t>(0, std::llround(time / start.world.dt));
     return start;
   }
-  const auto fullest =
-      std::max_element(frames.begin(), frames.end(),
-                       [](const auto& a, const auto& b) { return a.id.size() < b.id.size(); });
-  start.first = static_cast<std::size_t>(fullest - frames.begin());
+  start.first = FullestFrame(frames);
+  if (problem.model.name == "crowd") {
+    const double time = (SpanOf(trajectories).first - 1) / fps - start.world.time;
+    start.first = CrowdStartFrame(frames, problem.model, std::llround(time / start.world.dt),
+                                  start.substeps, start.world.dt);
+  }
   start.frames = std::min(frames.size() - start.first, most);
   TakeFlock(frames, std::move(trajectories), fps, &start);
   return start;
@@ -157,6 +170,9 @@ std::optional<std::vector<FramePositions>> Fly(const FlightStart& start, const M
     }
   }
   for (double& speed : swarm.cruising_speed) speed *= own_speed;
+  for (std::size_t k = 0; k < start.velocity_doubt.size(); ++k) {
+    swarm.velocity[k] += Rng(seed, k, kStartStream).Normal() * start.velocity_doubt[k];
+  }
   std::vector<FramePositions> frames;
   try {
     swarm.model = ResolveModel(model);

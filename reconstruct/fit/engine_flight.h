@@ -47,6 +47,7 @@ struct FlightStart {
   int substeps = 1;                   // steps a frame
   std::int64_t steps_before = 0;      // from the start to the first of these frames
   std::optional<Scene> drawn;         // whose start is drawn anew; nothing: all start alike
+  std::vector<Vec3d> velocity_doubt;  // times N(0, 1), new with each seed, added at the start
 };
 
 // `frames`: all of the data's, in a row.

@@ -21,6 +21,13 @@ const Vec3d* Find(const FramePositions& frame, Id id) {
 
 }  // namespace
 
+std::size_t FullestFrame(const std::vector<FramePositions>& frames) {
+  const auto fullest =
+      std::max_element(frames.begin(), frames.end(),
+                       [](const auto& a, const auto& b) { return a.id.size() < b.id.size(); });
+  return static_cast<std::size_t>(fullest - frames.begin());
+}
+
 std::optional<MotionStatistics> ComputeMotionStatistics(std::span<const FramePositions> frames,
                                                         double dt, const TargetDistances& target) {
   std::array<std::vector<double>, kMotionStatistics.size()> values;

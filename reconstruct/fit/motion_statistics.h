@@ -39,6 +39,9 @@ struct FramePositions {
   std::vector<Vec3d> position;
 };
 
+// The first of those with most animals.
+std::size_t FullestFrame(const std::vector<FramePositions>& frames);
+
 // How far places are from what there is to fly to, in one of the frames; none in a frame that is
 // not looked at.
 using TargetDistances =
