@@ -187,6 +187,8 @@ std::optional<std::vector<FramePositions>> Fly(const FlightStart& start, const M
       state.position.resize(swarm.position.size());
       frames.push_back({std::move(state.id), std::move(state.position)});
     }
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;  // numbers that do not go together
   } catch (const std::runtime_error&) {
     return std::nullopt;
   }
