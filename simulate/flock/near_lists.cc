@@ -9,6 +9,7 @@ namespace flocklift {
 namespace {
 
 constexpr std::uint32_t kEight = 8;            // lists side by side
+constexpr std::size_t kRowsAhead = 48;         // written
 constexpr float kReachMargin = 1.0001F;        // of the kernels' boxes, against rounding
 constexpr double kFarAway = 1e9;               // [m]
 constexpr std::size_t kFirstRoom = 1U << 15U;  // places
@@ -112,10 +113,14 @@ void MakeRoom(std::size_t n, std::vector<BodyRow<T>>* rows) {
   rows->resize(n + kEight, {T(kFarAway), T(kFarAway), T(kFarAway), T(0), T(0), T(0), T(0), T(0)});
 }
 
+// The rows that other threads have read since must be taken from their caches again, one after the
+// other: so they are asked for ahead, to be written. (What compilers have for it they only use
+// where a processor is named; one that does not know the instruction passes over it.)
 template <typename T>
 void FillRows(const Bodies<T>& bodies, std::size_t first, std::size_t last,
               std::vector<BodyRow<T>>* rows) {
   for (std::size_t k = first; k < last; ++k) {
+    asm volatile("prefetchw %0" : : "m"((*rows)[std::min(k + kRowsAhead, last)].x));
     (*rows)[k] = {bodies.x[k],  bodies.y[k],  bodies.z[k],  T(0),
                   bodies.vx[k], bodies.vy[k], bodies.vz[k], T(0)};
   }
