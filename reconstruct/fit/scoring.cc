@@ -109,8 +109,7 @@ StateSpaceFit Scoring::Run() {
     const Eigen::VectorXd step = Step();
     const bool small = Largest(step) < options_.accuracy;
     const bool moved = Walk(step, &sweep);
-    if (!moved && paths_ == nullptr && !stays_at_zero_ && NoiseAt(phi_).position_variance <= 0 &&
-        free_[p_ + 1]) {
+    if (!moved && !stays_at_zero_ && NoiseAt(phi_).position_variance <= 0 && free_[p_ + 1]) {
       stays_at_zero_ = true;  // the rest goes on without it
       continue;
     }
@@ -292,7 +291,7 @@ bool Scoring::Walk(const Eigen::VectorXd& step, FilterSweep* sweep) {
     std::vector<double> phi = phi_;
     for (std::size_t p = 0; p < phi.size(); ++p) {
       double move = step[static_cast<Eigen::Index>(p)];
-      const bool is_noise = p >= p_ && p < own_ && paths_ == nullptr;  // else they take its place
+      const bool is_noise = p >= p_ && p < own_;
       if (is_noise && move < kShrinks) move = std::log1p(std::max(move, -kAlmostAll));
       const double limit = p < p_ ? std::numeric_limits<double>::infinity() : 3.0;
       phi[p] += std::clamp(share * move, -limit, limit);
