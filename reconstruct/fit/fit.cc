@@ -198,12 +198,6 @@ void Fitter::EstimateStates(WhitenedFit* fit) {
   result_.diffusion_sd = states.diffusion_sd;
   result_.position_noise = std::sqrt(states.noise.position_variance);
   parameter_rms_ = ParameterRms(process, states.estimate, states.sd, flock_, options_.substeps);
-  const double rounding =
-      RoundingOfAccelerations(flock_, flock_.dt() / std::max(1, options_.substeps));
-  for (std::size_t c = 0; c < free_.size(); ++c) {
-    double& sd = fit->regression.sd[c];
-    if (parameter_rms_[c] > 0) sd = std::max(sd, rounding / parameter_rms_[c]);
-  }
   if (weights_ < free_.size()) {  // the rows were made with the others as given
     for (std::size_t c = weights_; c < free_.size(); ++c) {
       *FindNumber(&model_, free_[c]) = states.estimate[c];

@@ -156,20 +156,6 @@ NoiseEstimate EstimateNoise(const MotionRows& rows, const std::vector<Vec3d>& u,
   return noise;
 }
 
-double RoundingOfAccelerations(const ObservedFlock& flock, double step) {
-  double sum = 0, count = 0;
-  for (int animal = 0; animal < flock.animals(); ++animal) {
-    const FrameSpan life = flock.Life(animal);
-    for (int f = life.first; f < life.last; ++f) {
-      if (!flock.Measured(animal, f) || !flock.Measured(animal, f + 1)) continue;
-      sum += SquaredNorm(flock.Position(animal, f + 1) - flock.Position(animal, f));
-      count += 1;
-    }
-  }
-  const double speed = count > 0 ? std::sqrt(sum / count) / flock.dt() : 0;
-  return 0.5 * std::numeric_limits<float>::epsilon() * speed / step;
-}
-
 std::vector<double> ChangedShares(const MotionRows& rows, const MotionRows& other) {
   const std::size_t width = rows.terms + 1;
   std::vector<double> changes(rows.terms), squares(rows.terms), shares(rows.terms);

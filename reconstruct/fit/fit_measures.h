@@ -44,11 +44,6 @@ struct NoiseEstimate {
 NoiseEstimate EstimateNoise(const MotionRows& rows, const std::vector<Vec3d>& u,
                             const std::optional<double>& rho, double dt, double engine_step);
 
-// Flocks fly, and are written, in single precision, so that every step of a velocity is rounded, by
-// about the same while it grows alike: an acceleration that nothing tells from the model's own
-// [m/s^2]. Of the observed flock's rms speed, in steps of `step` [s].
-double RoundingOfAccelerations(const ObservedFlock& flock, double step);
-
 // Of each term's mean square, the share by which other positions of the same animals change it:
 // mean |X' - X|^2 / mean |X|^2 over the rows that both have.
 std::vector<double> ChangedShares(const MotionRows& rows, const MotionRows& other);

@@ -24,10 +24,6 @@ constexpr double kSmallVariance = 1e-3;    // s0^2, of how far the noise moves i
 constexpr double kNothing = 1e-12;         // an information below this share of the others'
 constexpr double kUnseen = 1e-6;           // ... of a parameter's own, beside the others
 constexpr int kHalvings = 12;
-// A variance that is far too large for the innovations has a step of nearly -1 in its logarithm,
-// however much: below this it is taken for the logarithm of 1 + step, which is what a variance
-// alone would have to go.
-constexpr double kShrinks = -0.5, kAlmostAll = 0.999;
 
 double CostOf(const Vector3& value, const Matrix3& covariance) {
   const Eigen::LLT<Matrix3> llt(covariance);
@@ -35,29 +31,17 @@ double CostOf(const Vector3& value, const Matrix3& covariance) {
   return 2 * std::log(llt.matrixL().toDenseMatrix().diagonal().prod()) + white.squaredNorm();
 }
 
-// -2 log likelihood of the next sweep, with this one's covariances times `dispersion` where a limit
-// acted: what the scoring descends.
-double CostBeside(const FilterSweep& sweep, double dispersion, const FilterSweep& next) {
+// -2 log likelihood of the next sweep, with this one's covariances where a limit acted: what the
+// scoring descends.
+double CostBeside(const FilterSweep& sweep, const FilterSweep& next) {
   double cost = next.cost;
   for (std::size_t k = 0; k < sweep.innovations.size(); ++k) {
     if (!sweep.innovations[k].is_limited) continue;
     const Vector3 value = ValueOf(next.innovations[k]);
-    cost += CostOf(value, dispersion * CovarianceOf(sweep.innovations[k])) -
+    cost += CostOf(value, CovarianceOf(sweep.innovations[k])) -
             CostOf(value, CovarianceOf(next.innovations[k]));
   }
   return cost;
-}
-
-// How many times their covariances the innovations are where a limit acted, on average; 1 at least.
-double DispersionOf(const FilterSweep& sweep) {
-  double sum = 0, count = 0;
-  for (const Innovation& innovation : sweep.innovations) {
-    if (!innovation.is_limited) continue;
-    const Eigen::LLT<Matrix3> llt(CovarianceOf(innovation));
-    sum += llt.matrixL().solve(ValueOf(innovation)).squaredNorm();
-    count += 3;
-  }
-  return count > 0 ? std::max(1.0, sum / count) : 1;
 }
 
 }  // namespace
@@ -108,12 +92,7 @@ StateSpaceFit Scoring::Run() {
     Linearize(sweep);
     const Eigen::VectorXd step = Step();
     const bool small = Largest(step) < options_.accuracy;
-    const bool moved = Walk(step, &sweep);
-    if (!moved && !stays_at_zero_ && NoiseAt(phi_).position_variance <= 0 && free_[p_ + 1]) {
-      stays_at_zero_ = true;  // the rest goes on without it
-      continue;
-    }
-    if (!moved || small) {
+    if (!Walk(step, &sweep) || small) {
       fit.status =
           small || Largest(step) < 0.3 ? StateSpaceStatus::kOk : StateSpaceStatus::kNotConverged;
       break;
@@ -176,12 +155,10 @@ FilterSweep Scoring::SweepAt(const std::vector<double>& phi, FilterSweep memory)
 
 void Scoring::Linearize(const FilterSweep& base) {
   const std::size_t count = base.innovations.size();
-  dispersion_ = DispersionOf(base);
   roots_.resize(count);
   white_.resize(3 * static_cast<Eigen::Index>(count));
   for (std::size_t k = 0; k < count; ++k) {
-    Matrix3 s = CovarianceOf(base.innovations[k]);
-    if (base.innovations[k].is_limited) s *= dispersion_;
+    const Matrix3 s = CovarianceOf(base.innovations[k]);
     roots_[k] = Eigen::LLT<Matrix3>(s).matrixL().solve(Matrix3::Identity());
     white_.segment<3>(3 * static_cast<Eigen::Index>(k)) = roots_[k] * ValueOf(base.innovations[k]);
   }
@@ -226,7 +203,7 @@ Eigen::VectorXd Scoring::Step() {
   const Eigen::Index size = score_.size();
   const bool at_zero = NoiseAt(phi_).position_variance <= 0;
   free_.assign(static_cast<std::size_t>(size), true);
-  free_[p_ + 1] = !(at_zero && (stays_at_zero_ || score_[static_cast<Eigen::Index>(p_) + 1] >= 0));
+  free_[p_ + 1] = !(at_zero && score_[static_cast<Eigen::Index>(p_) + 1] >= 0);
   const Eigen::VectorXd scale = information_.diagonal().cwiseSqrt();
   for (Eigen::Index p = 0; p < size; ++p) {
     if (!(scale[p] > 0)) free_[static_cast<std::size_t>(p)] = false;
@@ -285,25 +262,21 @@ double Scoring::Largest(const Eigen::VectorXd& step) const {
 }
 
 bool Scoring::Walk(const Eigen::VectorXd& step, FilterSweep* sweep) {
-  const double before = CostBeside(*sweep, dispersion_, *sweep);
   double share = 1;
   for (int halving = 0; halving < kHalvings; ++halving, share *= 0.5) {
     std::vector<double> phi = phi_;
     for (std::size_t p = 0; p < phi.size(); ++p) {
-      double move = step[static_cast<Eigen::Index>(p)];
-      const bool is_noise = p >= p_ && p < own_;
-      if (is_noise && move < kShrinks) move = std::log1p(std::max(move, -kAlmostAll));
       const double limit = p < p_ ? std::numeric_limits<double>::infinity() : 3.0;
-      phi[p] += std::clamp(share * move, -limit, limit);
+      phi[p] += std::clamp(share * step[static_cast<Eigen::Index>(p)], -limit, limit);
     }
     phi[p_ + 1] = std::max(phi[p_ + 1], lowest_);
     FilterSweep next = SweepAt(phi, std::move(spare_));
-    double cost = CostBeside(*sweep, dispersion_, next);
+    double cost = CostBeside(*sweep, next);
     for (std::size_t p = 0; p < own_ && determinant_.size() > 0; ++p) {
       cost += 2 * determinant_[static_cast<Eigen::Index>(p)] * (phi[p] - phi_[p]);
     }
     spare_ = std::move(next);
-    if (!(cost <= before)) continue;
+    if (!(cost <= sweep->cost)) continue;
     phi_ = phi;
     std::swap(*sweep, spare_);
     return true;

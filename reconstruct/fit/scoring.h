@@ -61,14 +61,12 @@ class Scoring {
   std::size_t own_;
   std::vector<double> phi_, differences_;
   double smallest_ = 0, lowest_ = 0;  // s0^2 and its logarithm
-  bool stays_at_zero_ = false;        // s^2: no step away from there was one down
   std::vector<bool> free_;
   Eigen::VectorXd score_, determinant_;
   Eigen::MatrixXd information_, covariance_;
 
   // Of one linearisation; kept, since fresh pages of memory cost more than what is written there.
   std::vector<FilterSweep> moved_;  // where one of the own unknowns is
-  double dispersion_ = 1;           // of the innovations where a limit acted
   std::vector<Eigen::Matrix3d> roots_;
   Eigen::VectorXd white_;
   Eigen::MatrixXd slopes_, changes_;  // whitened eps_p, and S_p of what S depends on

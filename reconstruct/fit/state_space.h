@@ -8,10 +8,8 @@
 //   information I_pr = sum  eps_p' S^-1 eps_r + tr(S^-1 S_p S^-1 S_r) / 2
 // eps_p, S_p derivatives by differences of whole sweeps, which see the gain's change too. The sd
 // are those of I^-1. Of innovations that know of a speed limit, which are no Gaussian's, the first
-// term alone is taken, from means that are right (quasi-likelihood: Wedderburn 1974); where they are
-// larger than their S, on average, S is larger by that. Where s^2 goes to 0 and no way up is a
-// better one it stays there and is no unknown any more. Without noise only rounding is left: fit.cc
-// states no sd below it (fit_measures.h).
+// term alone is taken, from means that are right (quasi-likelihood: Wedderburn 1974). Where s^2
+// goes to 0 it stays there and is no unknown any more.
 //
 // For a flock that has forgotten its start, I of a drag gamma is (animals - 1) 3 T / (2 gamma), as
 // of a damped velocity that is known without error (of the reference flock, gamma = 20 alignment,
@@ -42,7 +40,7 @@ namespace flocklift {
 
 struct StateSpaceOptions {
   FilterOptions filter;
-  int rounds = 100;        // of scoring, at most
+  int rounds = 30;         // of scoring, at most
   double accuracy = 0.01;  // it ends when no unknown moves by more of its sd
   int threads = 1;
 };
