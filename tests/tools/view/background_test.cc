@@ -72,7 +72,7 @@ Held ReportsWhileHeld() {
 TEST(Background, RestsWhileOthersAreWaitedFor) {
   Held held = ReportsWhileHeld();
   for (int again = 0; again < 20 && !held.always; ++again) held = ReportsWhileHeld();
-  if (!held.always) GTEST_SKIP() << "a machine too busy to tell";
+  ASSERT_TRUE(held.always) << "a machine too busy to tell";
   EXPECT_LE(held.reports, 5);
 }
 
