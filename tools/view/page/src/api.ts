@@ -21,7 +21,7 @@ async function checked(response: Response): Promise<Response> {
   throw new Refusal(reason);
 }
 
-// The answer to what was asked for, or asked for now.
+// What a request was answered; throws a Refusal where that is not what was asked for.
 export async function jsonOf<T>(answer: Promise<Response>): Promise<T> {
   return (await checked(await answer)).json() as Promise<T>;
 }
