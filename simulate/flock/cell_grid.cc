@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "simulate/flock/extent.h"
+
 namespace flocklift {
 namespace {
 
@@ -16,38 +18,6 @@ constexpr double kMargin = 1.001;
 
 // Animals, below which another thread is not worth waking.
 constexpr std::size_t kLeastChunk = 2048, kLeastBoxChunk = 32768;
-
-template <typename T>
-struct Extent {
-  T low, high;
-};
-
-// Least and greatest value of a column from first to last, first < last. Eight at a time, so that
-// it runs on packs. Throws std::runtime_error when a value is not finite.
-template <typename T>
-Extent<T> ExtentOf(const std::vector<T>& column, std::size_t first, std::size_t last) {
-  constexpr std::size_t kLanes = 8;
-  T low[kLanes], high[kLanes], zero[kLanes];
-  std::fill_n(low, kLanes, column[first]);
-  std::fill_n(high, kLanes, column[first]);
-  std::fill_n(zero, kLanes, T(0));
-  const auto take = [&](std::size_t lane, T value) {
-    low[lane] = value < low[lane] ? value : low[lane];
-    high[lane] = value > high[lane] ? value : high[lane];
-    zero[lane] += value - value;  // 0, unless it is not finite
-  };
-  std::size_t k = first;
-  for (; k + kLanes <= last; k += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) take(lane, column[k + lane]);
-  }
-  for (; k < last; ++k) take(0, column[k]);
-  if (!std::all_of(zero, zero + kLanes, [](T value) { return value == T(0); })) {
-    throw std::runtime_error(
-        "the simulation diverged (a position is not finite): take more substeps or smaller "
-        "weights");
-  }
-  return {*std::min_element(low, low + kLanes), *std::max_element(high, high + kLanes)};
-}
 
 // n animals in equal shares for `count` threads.
 struct Shares {
@@ -74,21 +44,22 @@ struct Box {
   Extent<T> x, y, z;
 };
 
-template <typename T>
-Extent<T> Join(const Extent<T>& a, const Extent<T>& b) {
-  return {std::min(a.low, b.low), std::max(a.high, b.high)};
-}
-
+// Throws std::runtime_error when a position is not finite.
 template <typename T>
 Box<T> BoxOf(const Bodies<T>& bodies, const Shares& shares, ThreadPool* pool) {
   std::vector<Box<T>> of(static_cast<std::size_t>(shares.count));
   shares.ForEach(pool, [&](std::size_t k, std::size_t first, std::size_t last) {
-    of[k] = {ExtentOf(bodies.x, first, last), ExtentOf(bodies.y, first, last),
-             ExtentOf(bodies.z, first, last)};
+    of[k] = {ExtentOf<T>(bodies.x, first, last), ExtentOf<T>(bodies.y, first, last),
+             ExtentOf<T>(bodies.z, first, last)};
   });
   Box<T> all = of[0];
   for (const Box<T>& box : of) {
     all = {Join(all.x, box.x), Join(all.y, box.y), Join(all.z, box.z)};
+  }
+  if (!(all.x.finite && all.y.finite && all.z.finite)) {
+    throw std::runtime_error(
+        "the simulation diverged (a position is not finite): take more substeps or smaller "
+        "weights");
   }
   return all;
 }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "simulate/flock/extent.h"
+
 namespace flocklift {
 namespace {
 
@@ -23,37 +25,10 @@ struct Moves {
   T operator[](std::size_t k) const { return now[k] - then[k]; }
 };
 
-template <typename T>
-struct Range {
-  T low, high;
-  bool finite;
-};
-
-// The least and the greatest of first .. last - 1, and whether all are finite; over whole lanes
-// first, the order does not count.
-template <typename T, typename Column>
-Range<T> RangeOf(const Column& values, std::size_t first, std::size_t last) {
-  T low[kLanes], high[kLanes], zero[kLanes] = {};
-  std::fill(low, low + kLanes, values[first]);
-  std::fill(high, high + kLanes, values[first]);
-  const auto take = [&](std::size_t lane, T value) {
-    low[lane] = value < low[lane] ? value : low[lane];
-    high[lane] = value > high[lane] ? value : high[lane];
-    zero[lane] += value - value;  // 0, unless it is not finite
-  };
-  std::size_t k = first;
-  for (; k + kLanes <= last; k += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) take(lane, values[k + lane]);
-  }
-  for (; k < last; ++k) take(0, values[k]);
-  return {*std::min_element(low, low + kLanes), *std::max_element(high, high + kLanes),
-          std::all_of(zero, zero + kLanes, [](T value) { return value == T(0); })};
-}
-
 // The bounding box of vectors.
 template <typename T>
 struct Box {
-  std::array<Range<T>, 3> axes;
+  std::array<Extent<T>, 3> axes;
 
   bool Finite() const { return axes[0].finite && axes[1].finite && axes[2].finite; }
   Vec3<T> Middle() const {
@@ -63,7 +38,7 @@ struct Box {
   // No vector is farther from the middle; infinite where one is no finite number.
   double HalfDiagonal() const {
     double squared = 0;
-    for (const Range<T>& axis : axes) {
+    for (const Extent<T>& axis : axes) {
       const double half = 0.5 * (static_cast<double>(axis.high) - static_cast<double>(axis.low));
       squared += half * half;
     }
@@ -81,17 +56,14 @@ Box<T> BoxOf(const Column (&v)[3], std::size_t n, ThreadPool* pool, const Also& 
   pool->For(0, count, kListGrain, [&](std::int64_t first, std::int64_t last) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       boxes[Chunk(first)].axes[axis] =
-          RangeOf<T>(v[axis], static_cast<std::size_t>(first), static_cast<std::size_t>(last));
+          ExtentOf<T>(v[axis], static_cast<std::size_t>(first), static_cast<std::size_t>(last));
     }
     also(static_cast<std::size_t>(first), static_cast<std::size_t>(last));
   });
   Box<T> all = boxes[0];
   for (const Box<T>& box : boxes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      Range<T>& range = all.axes[axis];
-      range.low = std::min(range.low, box.axes[axis].low);
-      range.high = std::max(range.high, box.axes[axis].high);
-      range.finite = range.finite && box.axes[axis].finite;
+      all.axes[axis] = Join(all.axes[axis], box.axes[axis]);
     }
   }
   return all;
