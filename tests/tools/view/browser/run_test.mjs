@@ -26,7 +26,7 @@ await until('the page', () => page.evaluate(() => Boolean(window.flocklift?.foot
 await goTo(page, 1);
 await until('the flock', () => page.evaluate(() =>
   document.querySelector('.flight canvas').dataset.frame === '1'));
-assert.equal(await page.locator('.animals li').count(), 5);
+await until('all five animals', async () => (await page.locator('.animals li').count()) === 5);
 say('the page loads');
 
 // The flock is in sight from every side: the only colours in space but grey are the birds'.
