@@ -7,7 +7,6 @@
 #include <mutex>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <tuple>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "simulate/core/check.h"
 #include "simulate/core/image.h"
 #include "simulate/core/parallel_for.h"
+#include "simulate/media/image_codec.h"
 #include "track/video_source.h"
 
 namespace flocklift {
@@ -22,9 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool IsPicture(const fs::path& path) {
-  return fs::is_regular_file(path) && cv::haveImageReader(path.string());
-}
+bool IsPicture(const fs::path& path) { return fs::is_regular_file(path) && IsImageFile(path); }
 
 // Does a name fit a pattern such as img_%03d.png?
 bool Matches(const std::string& name, const std::string& pattern) {
@@ -53,22 +51,6 @@ std::vector<fs::path> List(const fs::path& folder, const Wanted& wanted) {
     return NaturalLess(a.filename().string(), b.filename().string());
   });
   return pictures;
-}
-
-Image ReadPicture(const fs::path& path) {
-  cv::Mat mat;
-  try {
-    mat = cv::imread(path.string(), cv::IMREAD_COLOR);
-  } catch (const cv::Exception&) {
-    mat.release();
-  }
-  if (mat.empty()) {
-    throw InputError(path.string(), 0, "the picture cannot be decoded",
-                     "replace it or leave it out");
-  }
-  Image image(mat.cols, mat.rows);
-  mat.copyTo(cv::Mat(mat.rows, mat.cols, CV_8UC3, image.bgr.data()));
-  return image;
 }
 
 }  // namespace
@@ -117,7 +99,7 @@ BoardSearch SearchPictures(const std::vector<fs::path>& pictures, const Board& b
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to tell
   ParallelFor(threads, 0, count, 1, [&](std::int64_t first, std::int64_t) {
     const auto k = static_cast<std::size_t>(first);
-    const Image image = ReadPicture(pictures[k]);
+    const Image image = ReadImage(pictures[k]);
     sizes[k] = {image.width, image.height};
     views[k] = FindBoard(board, image, pictures[k].string());
     const std::lock_guard lock(mutex);

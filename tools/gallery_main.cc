@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "simulate/core/atomic_file.h"
-#include "simulate/render/image_codec.h"
+#include "simulate/media/image_codec.h"
 #include "tools/gallery_sheet.h"
 
 int main(int argc, char** argv) {

@@ -12,8 +12,8 @@
 #include "simulate/core/check.h"
 #include "simulate/core/input_file.h"
 #include "simulate/core/text.h"
-#include "simulate/render/draw.h"
-#include "simulate/render/image_codec.h"
+#include "simulate/media/draw.h"
+#include "simulate/media/image_codec.h"
 
 namespace flocklift {
 namespace {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "simulate/render/video_writer.h"
+#include "simulate/media/video_writer.h"
 #include "tools/command.h"
 
 namespace flocklift {

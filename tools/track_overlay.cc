@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "simulate/render/draw.h"
-#include "simulate/render/video_writer.h"
+#include "simulate/media/draw.h"
+#include "simulate/media/video_writer.h"
 #include "track/video_source.h"
 
 namespace flocklift {

@@ -16,8 +16,8 @@
 #include "simulate/core/check.h"
 #include "simulate/core/image.h"
 #include "simulate/core/text.h"
-#include "simulate/render/draw.h"
-#include "simulate/render/image_codec.h"
+#include "simulate/media/draw.h"
+#include "simulate/media/image_codec.h"
 #include "tools/track_overlay.h"
 #include "track/video_source.h"
 

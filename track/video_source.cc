@@ -5,18 +5,16 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstdlib>
 #include <map>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <string>
 #include <vector>
 
 #include "simulate/core/check.h"
-#include "track/luma_decoder.h"
+#include "simulate/media/bgr_converter.h"
+#include "simulate/media/image_codec.h"
+#include "simulate/media/turned.h"
+#include "track/video_stream.h"
 
 namespace flocklift {
 namespace {
@@ -133,149 +131,125 @@ bool NaturalLess(std::string_view a, std::string_view b) {
 
 class VideoSource::Impl {
  public:
-  explicit Impl(const fs::path& path) : path_(path) {
-    pictures_ = FootagePictures(path);
-    if (pictures_.empty()) OpenVideo();
-    if (!Decode(&ahead_)) {
-      throw InputError(path.string(), 0, "no frame can be read",
-                       "check that the video plays, or convert it with ffmpeg");
+  explicit Impl(const fs::path& path) : path_(path), pictures_(FootagePictures(path)) {
+    if (pictures_.empty()) {
+      stream_.emplace(path);
+      ahead_ = stream_->Next();
+      if (ahead_ == nullptr) {
+        throw InputError(path.string(), 0, "no frame can be read",
+                         "check that the video plays, or convert it with ffmpeg");
+      }
+      SetSize(stream_->turns(), ahead_->width, ahead_->height);
+    } else {
+      picture_ = DecodePicture();
+      SetSize(0, picture_->width, picture_->height);
     }
-    width_ = ahead_.cols;
-    height_ = ahead_.rows;
   }
 
-  // The next frame as OpenCV has it, valid until the next call; null after the last one.
-  const cv::Mat* Next() {
-    FLOCKLIFT_DCHECK(!luma_);
-    is_begun_ = true;
-    if (has_ahead_) {
-      has_ahead_ = false;
-      return &ahead_;
-    }
-    if (!Decode(&frame_)) return nullptr;
-    CheckSize(frame_.cols, frame_.rows);
-    return &frame_;
+  bool Read(Image* image) {
+    if (!stream_) return NextPicture(image);
+    const AVFrame* frame = NextFrame();
+    return frame != nullptr && Convert(*frame, image);
   }
 
-  // False after the last frame.
-  bool NextLuma(GrayImage* image) {
-    if (StartLuma()) {
-      if (!luma_->Read(image)) return false;
-      CheckSize(image->width, image->height);
-      return true;
+  bool Read(GrayImage* image) {
+    if (stream_) {
+      const AVFrame* frame = NextFrame();
+      if (frame == nullptr) return false;
+      if (stream_->turns() == 0 && internal::ReadLuma(*frame, image)) return true;
+      if (!Convert(*frame, &colours_)) return false;
+    } else if (!NextPicture(&colours_)) {
+      return false;
     }
-    const cv::Mat* frame = Next();
-    if (frame == nullptr) return false;
-    if (image->width != frame->cols || image->height != frame->rows) {
-      *image = GrayImage(frame->cols, frame->rows);
-    }
-    cv::Mat gray(frame->rows, frame->cols, CV_8UC1, image->pixels.data());
-    cv::cvtColor(*frame, gray, cv::COLOR_BGR2GRAY);
+    if (image->width != width_ || image->height != height_) *image = GrayImage(width_, height_);
+    const cv::Mat bgr(height_, width_, CV_8UC3, colours_.bgr.data());
+    cv::cvtColor(bgr, cv::Mat(height_, width_, CV_8UC1, image->pixels.data()), cv::COLOR_BGR2GRAY);
     return true;
   }
 
   bool Skip(std::int64_t frames) {
-    if (StartLuma()) {
+    if (stream_) {
       for (; frames > 0; --frames) {
-        if (!luma_->Skip()) return false;
+        if (NextFrame() == nullptr) return false;
       }
       return true;
     }
-    if (frames > 0 && has_ahead_) {
-      has_ahead_ = false;
+    if (frames > 0 && picture_) {
+      picture_.reset();
       --frames;
     }
-    if (!pictures_.empty()) {
-      const std::size_t left = pictures_.size() - next_picture_;
-      next_picture_ += std::min(left, static_cast<std::size_t>(frames));
-      return left >= static_cast<std::size_t>(frames);
-    }
-    for (; frames > 0; --frames) {
-      if (!capture_.grab()) return false;
-    }
-    return true;
+    const std::size_t left = pictures_.size() - next_picture_;
+    next_picture_ += std::min(left, static_cast<std::size_t>(frames));
+    return left >= static_cast<std::size_t>(frames);
   }
 
   int width() const { return width_; }
   int height() const { return height_; }
-  std::optional<double> fps() const { return fps_; }
+  std::optional<double> fps() const { return stream_ ? stream_->fps() : std::nullopt; }
   std::optional<std::int64_t> frame_count() const {
-    if (!pictures_.empty()) return static_cast<std::int64_t>(pictures_.size());
-    return declared_count_;
+    return stream_ ? stream_->frame_count() : static_cast<std::int64_t>(pictures_.size());
   }
 
  private:
-  void CheckSize(int width, int height) const {
+  void SetSize(int turns, int width, int height) {
+    width_ = turns % 2 == 1 ? height : width;
+    height_ = turns % 2 == 1 ? width : height;
+  }
+
+  void CheckSize(const fs::path& path, int width, int height) const {
     if (width == width_ && height == height_) return;
-    throw InputError(current_.string(), 0,
+    throw InputError(path.string(), 0,
                      "the frame is " + std::to_string(width) + " x " + std::to_string(height) +
                          " pixels, those before are " + std::to_string(width_) + " x " +
                          std::to_string(height_),
                      "bring all frames to one size");
   }
 
-  // Whether luma comes straight from the codec: decided at the first frame.
-  bool StartLuma() {
-    if (!is_begun_ && pictures_.empty()) {
-      luma_ = internal::LumaDecoder::Open(path_);
-      if (luma_) capture_.release();
-    }
-    is_begun_ = true;
-    return luma_ != nullptr;
+  // The next frame of the film, valid until the next call; null after the last one.
+  const AVFrame* NextFrame() {
+    const AVFrame* frame = ahead_ != nullptr ? ahead_ : stream_->Next();
+    ahead_ = nullptr;
+    if (frame == nullptr) return nullptr;
+    const bool swaps = stream_->turns() % 2 == 1;
+    CheckSize(path_, swaps ? frame->height : frame->width, swaps ? frame->width : frame->height);
+    return frame;
   }
 
-  void OpenVideo() {
-    // FFmpeg's own messages would stand beside our one line.
-    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);
-    bool opened = false;
-    try {
-      opened = capture_.open(path_.string(), cv::CAP_FFMPEG);
-    } catch (const cv::Exception&) {
-      opened = false;
-    }
-    if (!opened) {
-      throw InputError(path_.string(), 0, "this is no video that can be decoded",
-                       "convert it with ffmpeg, for example to H.264 in .mp4");
-    }
-    const double fps = capture_.get(cv::CAP_PROP_FPS);
-    if (std::isfinite(fps) && fps > 0) fps_ = fps;
-    const double count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
-    if (std::isfinite(count) && count > 0 && count < 1e12) {
-      declared_count_ = static_cast<std::int64_t>(count);
-    }
+  bool Convert(const AVFrame& frame, Image* image) {
+    if (!converter_.Convert(frame, frame.width, frame.height, image)) return false;
+    if (stream_->turns() != 0) *image = Turned(*image, stream_->turns());
+    return true;
   }
 
-  bool Decode(cv::Mat* frame) {
-    if (pictures_.empty()) {
-      current_ = path_;
-      return capture_.read(*frame) && !frame->empty();
-    }
-    if (next_picture_ == pictures_.size()) return false;
-    current_ = pictures_[next_picture_++];
+  Image DecodePicture() {
     try {
-      *frame = cv::imread(current_.string(), cv::IMREAD_COLOR);
-    } catch (const cv::Exception&) {
-      frame->release();
-    }
-    if (frame->empty()) {
-      throw InputError(current_.string(), 0, "the picture cannot be decoded",
+      return ReadImage(pictures_[next_picture_++]);
+    } catch (const InputError&) {
+      throw InputError(pictures_[next_picture_ - 1].string(), 0, "the picture cannot be decoded",
                        "replace it or take it out of the sequence");
     }
+  }
+
+  bool NextPicture(Image* image) {
+    if (!picture_) {
+      if (next_picture_ == pictures_.size()) return false;
+      picture_ = DecodePicture();
+      CheckSize(pictures_[next_picture_ - 1], picture_->width, picture_->height);
+    }
+    *image = *std::move(picture_);
+    picture_.reset();
     return true;
   }
 
   fs::path path_;
-  fs::path current_;
-  std::unique_ptr<internal::LumaDecoder> luma_;
-  bool is_begun_ = false;  // a frame was asked for
   std::vector<fs::path> pictures_;
   std::size_t next_picture_ = 0;
-  cv::VideoCapture capture_;
-  cv::Mat ahead_, frame_;
-  bool has_ahead_ = true;
+  std::optional<Image> picture_;  // decoded ahead of its turn
+  std::optional<internal::VideoStream> stream_;
+  const AVFrame* ahead_ = nullptr;  // likewise
+  internal::BgrConverter converter_{false};
+  Image colours_;
   int width_ = 0, height_ = 0;
-  std::optional<double> fps_;
-  std::optional<std::int64_t> declared_count_;
 };
 
 VideoSource::VideoSource(const fs::path& path) : impl_(std::make_unique<Impl>(path)) {}
@@ -285,19 +259,8 @@ int VideoSource::width() const { return impl_->width(); }
 int VideoSource::height() const { return impl_->height(); }
 std::optional<double> VideoSource::fps() const { return impl_->fps(); }
 std::optional<std::int64_t> VideoSource::frame_count() const { return impl_->frame_count(); }
-
-bool VideoSource::Read(Image* image) {
-  const cv::Mat* frame = impl_->Next();
-  if (frame == nullptr) return false;
-  if (image->width != frame->cols || image->height != frame->rows) {
-    *image = Image(frame->cols, frame->rows);
-  }
-  frame->copyTo(cv::Mat(frame->rows, frame->cols, CV_8UC3, image->bgr.data()));
-  return true;
-}
-
+bool VideoSource::Read(Image* image) { return impl_->Read(image); }
+bool VideoSource::Read(GrayImage* image) { return impl_->Read(image); }
 bool VideoSource::Skip(std::int64_t frames) { return impl_->Skip(frames); }
-
-bool VideoSource::Read(GrayImage* image) { return impl_->NextLuma(image); }
 
 }  // namespace flocklift

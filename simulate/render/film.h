@@ -17,8 +17,8 @@
 #include "simulate/core/progress.h"
 #include "simulate/core/scene.h"
 #include "simulate/core/trajectory.h"
+#include "simulate/media/video_writer.h"
 #include "simulate/render/scenery.h"
-#include "simulate/render/video_writer.h"
 
 namespace flocklift {
 

@@ -15,9 +15,9 @@
 #include "simulate/camera/camera.h"
 #include "simulate/core/scene.h"
 #include "simulate/core/vec3.h"
+#include "simulate/media/draw.h"
 #include "simulate/render/canvas.h"
 #include "simulate/render/coverage.h"
-#include "simulate/render/draw.h"
 
 namespace flocklift {
 

@@ -17,7 +17,7 @@
 #include "simulate/core/scene.h"
 #include "simulate/core/triangle_mesh.h"
 #include "simulate/core/vec3.h"
-#include "simulate/render/draw.h"
+#include "simulate/media/draw.h"
 #include "simulate/render/marks.h"
 #include "simulate/render/renderer.h"
 

@@ -17,8 +17,8 @@
 
 #include "simulate/camera/camera.h"
 #include "simulate/core/vec3.h"
+#include "simulate/media/draw.h"
 #include "simulate/render/depth_buffer.h"
-#include "simulate/render/draw.h"
 
 namespace flocklift {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "simulate/core/check.h"
-#include "simulate/render/image_codec.h"
+#include "simulate/media/image_codec.h"
 
 namespace flocklift {
 namespace {

@@ -4,12 +4,12 @@
 #include "tools/report/video_frame.h"
 
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 #include <vector>
 
 #include "simulate/core/check.h"
+#include "simulate/media/image_codec.h"
+#include "track/video_frames.h"
 #include "track/video_source.h"
 
 namespace flocklift {
@@ -17,65 +17,43 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kDecodeFromStart = 900;  // frames; later ones are sought, which may be inexact
 constexpr int kQuality = 84;
 
-bool SkipTo(cv::VideoCapture& video, int frame) {
-  for (int k = 1; k < frame; ++k) {
-    if (!video.grab()) return false;
+// Of no size when there is none.
+Image ReadFrame(const fs::path& footage, int frame) {
+  Image image;
+  const std::vector<fs::path> pictures = FootagePictures(footage);
+  if (pictures.empty()) {
+    VideoFrames video(footage);
+    if (!video.Read(frame, video.width(), video.height(), &image)) return {};
+  } else if (static_cast<std::size_t>(frame) <= pictures.size()) {
+    image = ReadImage(pictures[static_cast<std::size_t>(frame - 1)]);
   }
-  return true;
-}
-
-cv::Mat ReadFromVideo(const fs::path& path, int frame) {
-  cv::VideoCapture video(path.string(), cv::CAP_FFMPEG);
-  cv::Mat picture;
-  if (!video.isOpened()) return picture;
-  bool is_there = false;
-  if (frame > kDecodeFromStart) {
-    is_there = video.set(cv::CAP_PROP_POS_FRAMES, frame - 1) &&
-               std::lround(video.get(cv::CAP_PROP_POS_FRAMES)) == frame - 1;
-    if (!is_there) video.open(path.string(), cv::CAP_FFMPEG);
-  }
-  if (!is_there && !SkipTo(video, frame)) return picture;
-  video.read(picture);
-  return picture;
-}
-
-// A folder or pattern of pictures.
-cv::Mat ReadFromPictures(const fs::path& path, int frame) {
-  try {
-    VideoSource source(path);
-    Image image;
-    for (int k = 1; k <= frame; ++k) {
-      if (!source.Read(&image)) return {};
-    }
-    return cv::Mat(image.height, image.width, CV_8UC3, image.bgr.data()).clone();
-  } catch (const InputError&) {
-    return {};  // a report without its picture
-  }
+  return image;
 }
 
 }  // namespace
 
 std::optional<EmbeddedPicture> ReadVideoFrame(const fs::path& footage, int frame, int widest) {
   Check(frame >= 1 && widest >= 16, "frames count from 1, pictures are at least 16 px wide");
-  cv::Mat picture = fs::is_regular_file(footage) ? ReadFromVideo(footage, frame)
-                                                 : ReadFromPictures(footage, frame);
-  if (picture.empty()) return std::nullopt;
-  EmbeddedPicture embedded{picture.cols, picture.rows, {}};
-  if (picture.cols > widest) {
-    const int height =
-        std::max(1, static_cast<int>(std::lround(1.0 * widest * picture.rows / picture.cols)));
-    cv::Mat smaller;
-    cv::resize(picture, smaller, {widest, height}, 0, 0, cv::INTER_AREA);
-    picture = smaller;
+  Image image;
+  try {
+    image = ReadFrame(footage, frame);
+  } catch (const InputError&) {
+    return std::nullopt;  // a report without its picture
   }
-  std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality})) {
-    return std::nullopt;
+  if (image.width == 0) return std::nullopt;
+  EmbeddedPicture embedded{image.width, image.height, {}};
+  if (image.width > widest) {
+    Image smaller(
+        widest,
+        std::max(1, static_cast<int>(std::lround(1.0 * widest * image.height / image.width))));
+    cv::Mat to(smaller.height, smaller.width, CV_8UC3, smaller.bgr.data());
+    cv::resize(cv::Mat(image.height, image.width, CV_8UC3, image.bgr.data()), to, to.size(), 0, 0,
+               cv::INTER_AREA);
+    image = std::move(smaller);
   }
-  embedded.data_uri = "data:image/jpeg;base64," + Base64(bytes);
+  embedded.data_uri = "data:image/jpeg;base64," + Base64(EncodeJpeg(image, kQuality));
   return embedded;
 }
 

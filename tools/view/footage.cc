@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "simulate/core/check.h"
-#include "simulate/render/image_codec.h"
-#include "tools/view/video_frames.h"
+#include "simulate/media/image_codec.h"
+#include "track/video_frames.h"
 #include "track/video_source.h"
 
 namespace flocklift {

@@ -14,7 +14,7 @@
 #include <opencv2/video/background_segm.hpp>
 #include <string>
 
-#include "simulate/render/video_writer.h"
+#include "simulate/media/video_writer.h"
 #include "tests/track/pictures.h"
 #include "track/tracker.h"
 #include "track/video_source.h"

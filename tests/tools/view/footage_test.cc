@@ -12,8 +12,8 @@
 
 #include "simulate/core/check.h"
 #include "simulate/core/rng.h"
-#include "simulate/render/image_codec.h"
-#include "simulate/render/video_writer.h"
+#include "simulate/media/image_codec.h"
+#include "simulate/media/video_writer.h"
 
 namespace flocklift {
 namespace {

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "simulate/core/rng.h"
+#include "simulate/media/yuv420.h"
 #include "simulate/render/film.h"
 #include "simulate/render/flight.h"
 #include "simulate/render/renderer.h"
 #include "simulate/render/surface.h"
-#include "simulate/render/yuv420.h"
 
 namespace flocklift {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "simulate/render/video_writer.h"
+#include "simulate/media/video_writer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

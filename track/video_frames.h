@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The frames of a video file by number: see footage.h for how.
+// The frames of a video file by number, each the same however it is come to: the file is gone
+// through once for the times of its frames and its key frames, and decoded from one of these.
 
-#ifndef FLOCKLIFT_TOOLS_VIEW_VIDEO_FRAMES_H_
-#define FLOCKLIFT_TOOLS_VIEW_VIDEO_FRAMES_H_
+#ifndef FLOCKLIFT_TRACK_VIDEO_FRAMES_H_
+#define FLOCKLIFT_TRACK_VIDEO_FRAMES_H_
 
 #include <filesystem>
 #include <memory>
@@ -15,7 +16,7 @@ namespace flocklift {
 
 class VideoFrames {
  public:
-  // Throws InputError when libav finds no video in the file.
+  // Throws InputError when there is no video that can be decoded.
   explicit VideoFrames(const std::filesystem::path& path);
   ~VideoFrames();
   VideoFrames(const VideoFrames&) = delete;
@@ -35,4 +36,4 @@ class VideoFrames {
 
 }  // namespace flocklift
 
-#endif  // FLOCKLIFT_TOOLS_VIEW_VIDEO_FRAMES_H_
+#endif  // FLOCKLIFT_TRACK_VIDEO_FRAMES_H_

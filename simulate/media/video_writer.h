@@ -6,8 +6,8 @@
 // file. Colour conversion and encoding run in threads of their own while the caller makes the next
 // picture.
 
-#ifndef FLOCKLIFT_SIMULATE_RENDER_VIDEO_WRITER_H_
-#define FLOCKLIFT_SIMULATE_RENDER_VIDEO_WRITER_H_
+#ifndef FLOCKLIFT_SIMULATE_MEDIA_VIDEO_WRITER_H_
+#define FLOCKLIFT_SIMULATE_MEDIA_VIDEO_WRITER_H_
 
 #include <filesystem>
 #include <memory>
@@ -65,4 +65,4 @@ class VideoWriter {
 
 }  // namespace flocklift
 
-#endif  // FLOCKLIFT_SIMULATE_RENDER_VIDEO_WRITER_H_
+#endif  // FLOCKLIFT_SIMULATE_MEDIA_VIDEO_WRITER_H_

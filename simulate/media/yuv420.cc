@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "simulate/render/yuv420.h"
+#include "simulate/media/yuv420.h"
 
 #include <algorithm>
 #include <vector>

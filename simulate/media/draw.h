@@ -4,8 +4,8 @@
 // Drawings over a picture: anti-aliased lines, boxes, trails and small text with sub-pixel
 // positions [px], in colours that follow the identity. What lies outside the picture is cut off.
 
-#ifndef FLOCKLIFT_SIMULATE_RENDER_DRAW_H_
-#define FLOCKLIFT_SIMULATE_RENDER_DRAW_H_
+#ifndef FLOCKLIFT_SIMULATE_MEDIA_DRAW_H_
+#define FLOCKLIFT_SIMULATE_MEDIA_DRAW_H_
 
 #include <cstdint>
 #include <span>
@@ -45,4 +45,4 @@ void DrawText(const Vec2d& lower_left, std::string_view text, Color color, doubl
 
 }  // namespace flocklift
 
-#endif  // FLOCKLIFT_SIMULATE_RENDER_DRAW_H_
+#endif  // FLOCKLIFT_SIMULATE_MEDIA_DRAW_H_

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "simulate/render/video_writer.h"
+#include "simulate/media/video_writer.h"
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/opt.h>
 }
 
@@ -19,22 +17,14 @@ extern "C" {
 #include "simulate/core/atomic_file.h"
 #include "simulate/core/check.h"
 #include "simulate/core/options.h"
-#include "simulate/render/yuv420.h"
+#include "simulate/media/libav.h"
+#include "simulate/media/yuv420.h"
 
 namespace flocklift {
 namespace {
 
 constexpr std::size_t kQueueLength = 3;  // pictures that may wait for the encoder
 
-struct FreeCodec {
-  void operator()(AVCodecContext* p) const { avcodec_free_context(&p); }
-};
-struct FreeFrame {
-  void operator()(AVFrame* p) const { av_frame_free(&p); }
-};
-struct FreePacket {
-  void operator()(AVPacket* p) const { av_packet_free(&p); }
-};
 struct FreeMuxer {
   void operator()(AVFormatContext* p) const {
     if (p->pb != nullptr) avio_closep(&p->pb);
@@ -233,10 +223,10 @@ class VideoWriter::Encoder {
   std::filesystem::path path_;
   AtomicFile file_;
   int width_, height_;
-  std::unique_ptr<AVCodecContext, FreeCodec> codec_;
+  internal::AvCodec codec_;
   std::unique_ptr<AVFormatContext, FreeMuxer> muxer_;
-  std::unique_ptr<AVFrame, FreeFrame> frame_;
-  std::unique_ptr<AVPacket, FreePacket> packet_;
+  internal::AvFrame frame_;
+  internal::AvPacket packet_;
   AVStream* stream_ = nullptr;  // owned by muxer_
   std::int64_t frames_ = 0;
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "simulate/render/draw.h"
+#include "simulate/media/draw.h"
 
 #include <algorithm>
 #include <array>

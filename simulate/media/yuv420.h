@@ -7,8 +7,8 @@
 //   V = 128 + (112.0 R - 93.786 G - 18.214 B) / 255
 // U and V of the mean of 2 x 2 pixels. Integers only: the same bytes on every machine.
 
-#ifndef FLOCKLIFT_SIMULATE_RENDER_YUV420_H_
-#define FLOCKLIFT_SIMULATE_RENDER_YUV420_H_
+#ifndef FLOCKLIFT_SIMULATE_MEDIA_YUV420_H_
+#define FLOCKLIFT_SIMULATE_MEDIA_YUV420_H_
 
 #include <array>
 #include <cstddef>
@@ -29,4 +29,4 @@ void ConvertToYuv420(const Image& image, const Yuv420View& out);
 
 }  // namespace flocklift
 
-#endif  // FLOCKLIFT_SIMULATE_RENDER_YUV420_H_
+#endif  // FLOCKLIFT_SIMULATE_MEDIA_YUV420_H_
