@@ -24,7 +24,9 @@ class BoidsMotion final : public Motion<T> {
       : p_(InSeconds(p)),
         kernel_(std::is_same_v<T, float> ? ChooseKernel(context.kernel) : nullptr),
         forces_(context, herd.size()),
-        noise_(Stream::kNoise, herd.size()) {}
+        noise_(Stream::kNoise, herd.size()) {
+    if (p_.nearest == 0 && forces_.Reach() <= 0) lists_.Reserve(herd.size());
+  }
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
     AddPairs(around.dt(), pool, herd);

@@ -29,7 +29,9 @@ class BSwarmMotion final : public Motion<T> {
         kernel_(std::is_same_v<T, float> ? ChooseKernel(context.kernel) : nullptr),
         forces_(context, herd.size()),
         noise_(Stream::kNoise, herd.size()),
-        near_(herd.size()) {}
+        near_(herd.size()) {
+    if (MayList()) lists_.Reserve(herd.size());
+  }
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
     AddNeighbours(around, pool, herd);
@@ -72,13 +74,15 @@ class BSwarmMotion final : public Motion<T> {
   static T F(double value) { return static_cast<T>(value); }
   bool Avoids(Avoidance how) const { return p_.avoid.index == static_cast<int>(how); }
 
-  // The three zones, from lists that are kept where they last and nothing else needs an order of
-  // its own. With a sample, repulsion still hears everybody who is near: a pass of its own in an
-  // order of its own, whose result is kept by animal.
+  // Does nothing else need an order of its own?
+  bool MayList() const { return p_.most == 0 && forces_.Reach() <= 0 && !Avoids(Avoidance::kOrca); }
+
+  // The three zones, from lists that are kept where they last. With a sample, repulsion still hears
+  // everybody who is near: a pass of its own in an order of its own, whose result is kept by
+  // animal.
   void AddNeighbours(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) {
     const NearReach<T> reach{F(Reach(p_.zones)), T(0)};
-    if (p_.most == 0 && forces_.Reach() <= 0 && !Avoids(Avoidance::kOrca) &&
-        lists_.UpdateIfWorth(reach, around.dt(), kernel_, pool, herd)) {
+    if (MayList() && lists_.UpdateIfWorth(reach, around.dt(), kernel_, pool, herd)) {
       PairTask<T> task = TaskOf(herd);
       task.lists = &lists_;
       return SumPairs<T>(p_.zones, kernel_, task, pool);

@@ -22,6 +22,9 @@ namespace flocklift {
 template <typename T>
 class CellGrid {
  public:
+  // Takes the memory that a sort of so many needs, but for the cells', ahead of the first.
+  void Reserve(std::size_t animals) { cell_.resize(animals); }
+
   // Sorts `from` by cell into `to`, on the pool's threads if there is one; the result is the same.
   // Throws std::runtime_error when a position is not finite.
   void Sort(const Bodies<T>& from, double reach, Bodies<T>* to, ThreadPool* pool = nullptr);

@@ -5,6 +5,8 @@
 
 #include <type_traits>
 
+#include "simulate/core/scratch.h"
+
 namespace flocklift {
 namespace {
 
@@ -56,11 +58,9 @@ void ListScalar(const CellGrid<T>& grid, const Bodies<T>& s, const NearReach<T>&
 std::uint32_t ListByKernel(const CellGrid<float>& grid, const Bodies<float>& s,
                            const NearReach<float>& reach, const KernelVariant& kernel,
                            std::uint32_t first, std::uint32_t last, NearLists* lists) {
-  thread_local std::vector<std::uint32_t> candidates, near;
-  thread_local std::vector<float> columns;
-  candidates.resize(std::max(candidates.size(), s.size() + 32));
-  near.resize(candidates.size());
-  columns.resize(3 * candidates.size());
+  thread_local Scratch<std::uint32_t> candidates, near;
+  thread_local Scratch<float> columns;
+  const std::size_t room = s.size() + 32;
   const auto g = grid.view();
   ListJob job{};
   job.pairs.start = g.start;
@@ -76,10 +76,10 @@ std::uint32_t ListByKernel(const CellGrid<float>& grid, const Bodies<float>& s,
   job.manhattan = reach.manhattan;
   job.margin = kReachMargin;
   job.nobody = static_cast<std::uint32_t>(s.size());
-  job.candidates = candidates.data();
-  job.near = near.data();
-  job.columns = columns.data();
-  job.column = candidates.size();
+  job.candidates = candidates.Reserve(room);
+  job.near = near.Reserve(room);
+  job.columns = columns.Reserve(3 * room);
+  job.column = room;
   const auto eights = [first](std::uint32_t end) { return (end - first + kEight - 1) / kEight; };
   const std::size_t listed = lists->begin.size();
   lists->begin.resize(listed + eights(last));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "simulate/flock/pair_forces.h"
+#include "simulate/core/scratch.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -135,10 +136,9 @@ void SumWith(void (*kernel)(const Job&, std::uint32_t, std::uint32_t, std::uint3
   }
   pool->For(0, static_cast<std::int64_t>(n), kPairGrain,
             [&](std::int64_t first, std::int64_t last) {
-              thread_local std::vector<std::uint32_t> candidates;
-              candidates.resize(std::max(candidates.size(), n + 32));
+              thread_local Scratch<std::uint32_t> candidates;
               kernel(job, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last),
-                     candidates.data());
+                     candidates.Reserve(n + 32));
             });
 }
 

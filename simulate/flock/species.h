@@ -54,6 +54,8 @@ Herd<T> MakeHerd(const Swarm& swarm, std::uint64_t first_agent, bool flat) {
   for (std::vector<T>* column : {&herd.ax, &herd.ay, &herd.az, &herd.neighbours}) {
     column->assign(n + Bodies<T>::kPadding, T(0));
   }
+  herd.sorted.Resize(n);
+  herd.grid.Reserve(n);
   return herd;
 }
 

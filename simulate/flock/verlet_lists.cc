@@ -149,6 +149,16 @@ bool VerletLists<T>::Hold(const NearReach<T>& reach, const KernelVariant* kernel
 }
 
 template <typename T>
+void VerletLists<T>::Reserve(std::size_t animals) {
+  if (animals < kFewest) return;
+  MakeRoom(animals, &rows_);
+  for (std::vector<T>* column : {&x_, &y_, &z_}) {
+    column->resize(animals + Bodies<T>::kPadding);
+    column->clear();
+  }
+}
+
+template <typename T>
 void VerletLists<T>::Renew(const NearReach<T>& reach, ThreadPool* pool, Herd<T>* herd) {
   const double skin = skin_ * reach.Farthest();
   listed_ = {static_cast<T>(reach.straight + skin),

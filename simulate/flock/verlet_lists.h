@@ -33,6 +33,10 @@ class VerletLists {
   // `skin` is a share of the reach; 0 makes new lists for every change.
   explicit VerletLists(double skin) : skin_(skin) {}
 
+  // Takes the memory that so many animals need, but for the lists', ahead of the first step: what
+  // is written for the first time costs far more than what is written again.
+  void Reserve(std::size_t animals);
+
   // Sees to it that everybody within reach is listed. Where that takes new lists, the herd is
   // brought into a new order.
   void Update(const NearReach<T>& reach, const KernelVariant* kernel, ThreadPool* pool,
