@@ -127,6 +127,8 @@ class Solver {
     result.coefficients = factor.solve(system.r);
     v = factor.solve(MatrixXd::Identity(p_, p_));
     result.effective = v.cwiseProduct(system.a).sum();
+    result.h = sum;
+    result.r = system.r;
     const MatrixXd data = sum - s;
     LowerTaus(data, system.r);
     v = Eigen::LLT<MatrixXd>(data + Penalty()).solve(MatrixXd::Identity(p_, p_));

@@ -30,6 +30,8 @@ namespace flocklift {
 struct KernelEvidence {
   Eigen::VectorXd coefficients;  // c
   Eigen::MatrixXd covariance;    // of c
+  Eigen::MatrixXd h;             // H c = r is what c solves: data and penalties
+  Eigen::VectorXd r;
   Eigen::VectorXd information;   // of each coefficient by itself, from the data
   double position_variance = 0;  // s^2 [m^2]
   double diffusion = 0;          // D

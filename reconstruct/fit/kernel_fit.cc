@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reconstruct/fit/kernel_breaks.h"
 #include "reconstruct/fit/kernel_evidence.h"
+#include "reconstruct/fit/kernel_misfit.h"
 #include "reconstruct/fit/kernel_moments.h"
 #include "simulate/core/check.h"
 #include "simulate/core/rng.h"
@@ -149,6 +151,14 @@ std::vector<FittedKernel> KernelsOf(const KernelDesign& design, const KernelEvid
   return kernels;
 }
 
+void AddMisfits(const PairDensity& pairs, const KernelEvidence& evidence,
+                std::vector<FittedKernel>* kernels) {
+  std::vector<SplineBasis> bases;
+  for (const FittedKernel& kernel : *kernels) bases.push_back(kernel.basis);
+  std::vector<std::vector<double>> misfits = KernelMisfits(bases, pairs, evidence.h, evidence.r);
+  for (std::size_t k = 0; k < misfits.size(); ++k) (*kernels)[k].misfit = std::move(misfits[k]);
+}
+
 // |phi''|, from slopes a few cells apart.
 double Bend(const FittedKernel& kernel, double r) {
   const SplineBasis& basis = kernel.basis;
@@ -268,7 +278,10 @@ double FittedKernel::Sd(double distance) const {
                              static_cast<std::size_t>(local.first + j)];
     }
   }
-  return std::sqrt(std::max(variance, 0.0));
+  const std::vector<double>& breaks = basis.breaks();
+  const auto after = std::upper_bound(breaks.begin() + 1, breaks.end() - 1, distance);
+  return std::hypot(std::sqrt(std::max(variance, 0.0)),
+                    misfit[static_cast<std::size_t>(after - breaks.begin()) - 1]);
 }
 
 KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajectories>& flocks,
@@ -354,6 +367,7 @@ KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajecto
     evidence = SolveKernels(moments, corrected, Penalties(design), known_variance);
   }
   fit.kernels = KernelsOf(design, evidence);
+  AddMisfits(pairs, evidence, &fit.kernels);
   Index offset = 0;
   for (FittedKernel& kernel : fit.kernels) {
     AddPoints(pairs, evidence.information.segment(offset, kernel.basis.size()), &kernel);

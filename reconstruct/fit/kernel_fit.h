@@ -13,7 +13,9 @@
 // The bands are as wide as the least smoothness that the data allow makes them (kernel_evidence.h).
 // Over seeds of the system `flock` of tools/kernel_case.h, 5 runs seen with noise of 0, 1 and 5 mm,
 // the 95 % bands of the alignment cover 98, 96 and 94 % of the pairs, of the attraction 97 to 98.
-// They count on the kernels being all there is.
+// They count on the kernels being all there is. Where there is next to no noise what is left is of
+// the splines, which a kink or a step is not: that is told from fits of fewer intervals
+// (kernel_misfit.h) and added. How rows' misfits go together within a run is not.
 //
 // How many pieces a spline has matters little once there are enough: what is too many is smoothed
 // away. Chosen, it is as many as there are equations for, 80 at most.
@@ -95,9 +97,10 @@ struct FittedKernel {
   // 1/s or 1/s^2, by the order of the motion.
   std::string Unit(int order) const;
   double Value(double distance) const { return basis.Value(coefficients, distance); }
-  // sd of Value at a distance.
+  // sd of Value at a distance: of noise, and of misfit.
   double Sd(double distance) const;
-  std::vector<double> covariance;  // of the coefficients, row-major
+  std::vector<double> covariance;  // of the coefficients by noise, row-major
+  std::vector<double> misfit;      // sd between each two breaks, of what a spline cannot follow
 };
 
 enum class KernelFitStatus {

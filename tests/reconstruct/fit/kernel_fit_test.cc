@@ -259,6 +259,32 @@ TEST(KernelFit, BandsCoverAnAlignmentSeenWithNoise) {
   }
 }
 
+// What is left without noise is what the spline cannot follow: bands of noise alone covered 40 % of
+// the pairs here.
+TEST(KernelFit, BandsCoverWithoutNoise) {
+  const auto tent = [](double r) { return 0.3 * std::max(0.0, 1 - std::abs(r - 1.03) / 0.4); };
+  const KernelFlock flock{
+      .order = 1, .animals = 5, .dimensions = 2, .frames = 40, .attraction = tent, .alignment = {}};
+  double covered = 0, known = 0, pairs = 0, variance = 0, square = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const KernelFit fit =
+        Fit({.order = 1, .intervals = 24, .reach = 2.5}, FlyRuns(flock, 10, seed));
+    ASSERT_TRUE(fit.IsUsable());
+    for (const KernelPoint& point : fit.kernels[0].points) {
+      pairs += point.density;
+      if (!point.known) continue;
+      const double error = point.value - tent(point.distance);
+      known += point.density;
+      variance += point.density * point.sd * point.sd;
+      square += point.density * error * error;
+      if (std::abs(error) <= 1.96 * point.sd) covered += point.density;
+    }
+  }
+  EXPECT_GT(known, 0.9 * pairs);
+  EXPECT_GT(covered, 0.88 * known);
+  EXPECT_LT(variance, 25 * square);  // and are not wide for nothing
+}
+
 TEST(KernelFit, IsTheSameFromElsewhereAndInAnyOrder) {
   const KernelFlock flock{.order = 2,
                           .animals = 5,
