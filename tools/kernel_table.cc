@@ -50,7 +50,7 @@ std::vector<KernelScore> ScoreKernels(const KernelSystem& system, const KernelFi
   std::vector<KernelScore> scores;
   for (const FittedKernel& kernel : fit.kernels) {
     const DistanceKernel& truth = TrueKernel(system, kernel.name);
-    double error = 0, size = 0, covered = 0, known = 0, all = 0;
+    double error = 0, size = 0, covered = 0, known = 0, all = 0, variance = 0, square = 0;
     for (std::size_t k = 0; k < kernel.points.size(); ++k) {
       const KernelPoint& point = kernel.points[k];
       // Half the way to the points beside.
@@ -63,11 +63,14 @@ std::vector<KernelScore> ScoreKernels(const KernelSystem& system, const KernelFi
       all += rho;
       if (!point.known) continue;
       known += rho;
+      variance += rho * point.sd * point.sd;
+      square += rho * (point.value - is) * (point.value - is);
       if (std::abs(point.value - is) <= 1.96 * point.sd) covered += rho;
     }
     scores.push_back({.kernel = kernel.name,
                       .error = std::sqrt(error / size),
                       .coverage = covered / std::max(known, 1e-300),
+                      .width = std::sqrt(variance / std::max(square, 1e-300)),
                       .known = known / all});
   }
   return scores;
@@ -122,8 +125,9 @@ KernelTrial TryKernels(const KernelSystem& system, const KernelFitOptions& optio
 std::string KernelTable(const std::vector<KernelRow>& rows) {
   std::string text =
       "| system | position noise | kernel | relative L2(rho) error, % | bands cover, % of rho | "
-      "known, % of rho | prediction error, seen starts: seen / later time, % | new starts, % | "
-      "CPU s |\n| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+      "band over error | known, % of rho | prediction error, seen starts: seen / later time, % | "
+      "new starts, % | "
+      "CPU s |\n| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
   std::map<std::pair<std::string, double>, std::vector<KernelRow>> groups;
   std::vector<std::pair<std::string, double>> order;
   for (const KernelRow& row : rows) {
@@ -140,11 +144,13 @@ std::string KernelTable(const std::vector<KernelRow>& rows) {
     };
     for (std::size_t k = 0; k < group[0].kernels.size(); ++k) {
       text += fmt::format(
-          "| {} | {:g} | {} | {:.2f} | {:.0f} | {:.0f} | {:.3g} / {:.3g} | {:.3g} / {:.3g} | "
+          "| {} | {:g} | {} | {:.2f} | {:.0f} | {:.1f} | {:.0f} | {:.3g} / {:.3g} | {:.3g} / "
+          "{:.3g} | "
           "{:.1f} |\n",
           key.first, key.second, group[0].kernels[k].kernel,
           100 * mean([&](const KernelRow& r) { return r.kernels[k].error; }),
           100 * mean([&](const KernelRow& r) { return r.kernels[k].coverage; }),
+          mean([&](const KernelRow& r) { return r.kernels[k].width; }),
           100 * mean([&](const KernelRow& r) { return r.kernels[k].known; }),
           100 * mean([](const KernelRow& r) { return r.prediction.seen_time; }),
           100 * mean([](const KernelRow& r) { return r.prediction.later_time; }),

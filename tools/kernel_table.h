@@ -8,6 +8,8 @@
 //                            phihat and by phi from the same true start, relative to the rms
 //                            of the true positions about their mean at the start; mean over runs
 //   coverage                 share of rho (where the kernel is known) whose 95 % band has phi in it
+//   band over error          rms of the bands' sd over that of the error, both over rho (where
+//                            known): 1 where the bands are as wide as the error asks for
 
 #ifndef FLOCKLIFT_TOOLS_KERNEL_TABLE_H_
 #define FLOCKLIFT_TOOLS_KERNEL_TABLE_H_
@@ -24,6 +26,7 @@ struct KernelScore {
   std::string kernel;
   double error = 0;     // relative, L2(rho)
   double coverage = 0;  // of the bands where known
+  double width = 0;     // of the bands, over the error
   double known = 0;     // share of rho where known
 };
 
