@@ -13,6 +13,7 @@
 #include "reconstruct/fit/kernel_evidence.h"
 #include "reconstruct/fit/kernel_misfit.h"
 #include "reconstruct/fit/kernel_moments.h"
+#include "reconstruct/fit/kernel_sandwich.h"
 #include "simulate/core/check.h"
 #include "simulate/core/rng.h"
 
@@ -365,6 +366,8 @@ KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajecto
       Report(progress, kRounds + 1 + draw, kStages);
     }
     evidence = SolveKernels(moments, corrected, Penalties(design), known_variance);
+  } else {
+    evidence.covariance = KernelSandwich(design, observed, moments.modes, evidence);
   }
   fit.kernels = KernelsOf(design, evidence);
   AddMisfits(pairs, evidence, &fit.kernels);

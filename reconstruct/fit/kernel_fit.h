@@ -15,7 +15,8 @@
 // the 95 % bands of the alignment cover 98, 96 and 94 % of the pairs, of the attraction 97 to 98.
 // They count on the kernels being all there is. Where there is next to no noise what is left is of
 // the splines, which a kink or a step is not: that is told from fits of fewer intervals
-// (kernel_misfit.h) and added. How rows' misfits go together within a run is not.
+// (kernel_misfit.h) and added. How far rows of one flock err together is told from how the flocks
+// differ (kernel_sandwich.h), where there is more than one and no alignment seen with noise.
 //
 // How many pieces a spline has matters little once there are enough: what is too many is smoothed
 // away. Chosen, it is as many as there are equations for, 80 at most.

@@ -20,35 +20,6 @@ constexpr double kPlacesAnOctave = 4;
 constexpr int kParts = 4;        // of the work, each with sums of its own
 constexpr Index kGathered = 64;  // rows of a bin that are multiplied at once
 
-struct Run {
-  std::size_t flock = 0;
-  int animal = 0, first = 0, frames = 0;
-};
-
-// Frames that were measured, one after the other, in pieces of nearly one length.
-std::vector<Run> Runs(const KernelDesign& design, const std::vector<ObservedFlock>& flocks) {
-  std::vector<Run> runs;
-  for (std::size_t f = 0; f < flocks.size(); ++f) {
-    const ObservedFlock& flock = flocks[f];
-    for (int animal = 0; animal < flock.animals(); ++animal) {
-      const FrameSpan life = flock.Life(animal);
-      for (int first = life.first; first <= life.last;) {
-        int end = first;
-        while (end <= life.last && flock.Measured(animal, end)) ++end;
-        const int length = end - first;
-        const int pieces = (length + design.segment - 1) / std::max(1, design.segment);
-        for (int k = 0; k < pieces; ++k) {
-          const int from = first + length * k / pieces, to = first + length * (k + 1) / pieces;
-          if (to - from < ShortestRun(design.order)) continue;
-          runs.push_back({f, animal, from, to - from});
-        }
-        first = std::max(end, first + 1);
-      }
-    }
-  }
-  return runs;
-}
-
 // One-sided at the end of a track; nothing for an animal that is there for one frame only.
 std::optional<Vec3d> Velocity(const ObservedFlock& flock, int animal, int frame) {
   const int before = flock.Has(animal, frame - 1) ? 1 : 0;
@@ -70,7 +41,7 @@ class Gatherer {
     sums_.relaxation = MatrixXd::Zero(sums_.terms, sums_.terms);
   }
 
-  void Add(const Run& run) {
+  void Add(const KernelRun& run) {
     const ObservedFlock& flock = flocks_[run.flock];
     const ObservedFlock& moved = moved_[run.flock];
     const KernelModes& modes = modes_.at(run.frames);
@@ -185,6 +156,30 @@ void AddTo(const KernelMoments& part, KernelMoments* sum) {
 
 }  // namespace
 
+std::vector<KernelRun> KernelRuns(const KernelDesign& design,
+                                  const std::vector<ObservedFlock>& flocks) {
+  std::vector<KernelRun> runs;
+  for (std::size_t f = 0; f < flocks.size(); ++f) {
+    const ObservedFlock& flock = flocks[f];
+    for (int animal = 0; animal < flock.animals(); ++animal) {
+      const FrameSpan life = flock.Life(animal);
+      for (int first = life.first; first <= life.last;) {
+        int end = first;
+        while (end <= life.last && flock.Measured(animal, end)) ++end;
+        const int length = end - first;
+        const int pieces = (length + design.segment - 1) / std::max(1, design.segment);
+        for (int k = 0; k < pieces; ++k) {
+          const int from = first + length * k / pieces, to = first + length * (k + 1) / pieces;
+          if (to - from < ShortestRun(design.order)) continue;
+          runs.push_back({f, animal, from, to - from});
+        }
+        first = std::max(end, first + 1);
+      }
+    }
+  }
+  return runs;
+}
+
 double KernelMoments::rows() const {
   double sum = 0;
   for (const auto& [place, bin] : bins) sum += bin.rows;
@@ -249,7 +244,8 @@ std::int64_t CountKernelRows(const KernelDesign& design, const std::vector<Obser
   const std::int64_t coordinates =
       std::count(design.coordinates.begin(), design.coordinates.end(), true);
   std::int64_t rows = 0;
-  for (const Run& run : Runs(design, flocks)) rows += coordinates * (run.frames - design.order);
+  for (const KernelRun& run : KernelRuns(design, flocks))
+    rows += coordinates * (run.frames - design.order);
   return rows;
 }
 
@@ -258,13 +254,13 @@ KernelMoments GatherKernelMoments(const KernelDesign& design,
                                   const std::vector<ObservedFlock>& moved, int threads) {
   Check(moved.size() == flocks.size(), "as many flocks moved as there are");
   Check(!flocks.empty(), "no runs of a flock");
-  const std::vector<Run> runs = Runs(design, flocks);
+  const std::vector<KernelRun> runs = KernelRuns(design, flocks);
   KernelMoments sum;
   sum.terms = design.terms();
   sum.dimensions =
       static_cast<int>(std::count(design.coordinates.begin(), design.coordinates.end(), true));
   sum.relaxation = MatrixXd::Zero(sum.terms, sum.terms);
-  for (const Run& run : runs) {
+  for (const KernelRun& run : runs) {
     if (sum.modes.contains(run.frames)) continue;
     sum.modes[run.frames] = MakeKernelModes(design.order, run.frames, flocks[run.flock].dt());
   }

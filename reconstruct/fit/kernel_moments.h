@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -38,6 +39,16 @@ struct KernelDesign {
   // Place of the alignment's first function among the terms.
   int alignment_offset() const { return has_attraction ? attraction.size() : 0; }
 };
+
+// Of one animal of a flock.
+struct KernelRun {
+  std::size_t flock = 0;
+  int animal = 0, first = 0, frames = 0;
+};
+
+// Frames that were measured, one after the other, in pieces of nearly one length.
+std::vector<KernelRun> KernelRuns(const KernelDesign& design,
+                                  const std::vector<ObservedFlock>& flocks);
 
 // Rows of nearly one lambda: the lower triangle of sum [X y]'[X y].
 struct KernelBin {
