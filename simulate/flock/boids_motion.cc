@@ -25,7 +25,7 @@ class BoidsMotion final : public Motion<T> {
         kernel_(std::is_same_v<T, float> ? ChooseKernel(context.kernel) : nullptr),
         forces_(context, herd.size()),
         noise_(Stream::kNoise, herd.size()) {
-    if (p_.nearest == 0 && forces_.Reach() <= 0) lists_.Reserve(herd.size());
+    if (p_.nearest == 0 && forces_.Reach() <= 0) lists_.Reserve(herd.size(), context.pool);
   }
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {

@@ -30,7 +30,7 @@ class BSwarmMotion final : public Motion<T> {
         forces_(context, herd.size()),
         noise_(Stream::kNoise, herd.size()),
         near_(herd.size()) {
-    if (MayList()) lists_.Reserve(herd.size());
+    if (MayList()) lists_.Reserve(herd.size(), context.pool);
   }
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {

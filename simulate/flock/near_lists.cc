@@ -10,11 +10,10 @@
 namespace flocklift {
 namespace {
 
-constexpr std::uint32_t kEight = 8;            // lists side by side
-constexpr std::size_t kRowsAhead = 48;         // written
-constexpr float kReachMargin = 1.0001F;        // of the kernels' boxes, against rounding
-constexpr double kFarAway = 1e9;               // [m]
-constexpr std::size_t kFirstRoom = 1U << 15U;  // places
+constexpr std::uint32_t kEight = 8;      // lists side by side
+constexpr std::size_t kRowsAhead = 48;   // written
+constexpr float kReachMargin = 1.0001F;  // of the kernels' boxes, against rounding
+constexpr double kFarAway = 1e9;         // [m]
 
 template <typename T>
 void ListOne(const typename CellGrid<T>::View& g, const Bodies<T>& s, const NearReach<T>& reach,
@@ -88,7 +87,7 @@ std::uint32_t ListByKernel(const CellGrid<float>& grid, const Bodies<float>& s,
   job.room = lists->places.size();
   const std::uint32_t next = kernel.list(job, first, last);
   lists->begin.resize(listed + eights(next));
-  if (next < last) lists->places.resize(2 * lists->places.size() + kFirstRoom);
+  if (next < last) lists->places.resize(2 * lists->places.size() + NearLists::kFirstRoom);
   return next;
 }
 

@@ -48,6 +48,10 @@ struct NearLists {
   std::pmr::vector<std::uint32_t> places;  // at least 8 begin.back(); the rest is room
 
   void Clear() { begin.assign(1, 0); }
+  // Room for what most lists of kListGrain animals take, ahead of the first.
+  void Reserve() { places.resize(kFirstRoom); }
+
+  static constexpr std::size_t kFirstRoom = std::size_t{1} << 15U;  // places
 };
 
 // Appends the lists of the animals from `first` on, up to last - 1 or until `places` is full (then

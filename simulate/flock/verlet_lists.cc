@@ -149,13 +149,23 @@ bool VerletLists<T>::Hold(const NearReach<T>& reach, const KernelVariant* kernel
 }
 
 template <typename T>
-void VerletLists<T>::Reserve(std::size_t animals) {
+void VerletLists<T>::Reserve(std::size_t animals, ThreadPool* pool) {
   if (animals < kFewest) return;
   MakeRoom(animals, &rows_);
   for (std::vector<T>* column : {&x_, &y_, &z_}) {
     column->resize(animals + Bodies<T>::kPadding);
     column->clear();
   }
+  MakeChunks(animals);
+  pool->For(0, static_cast<std::int64_t>(chunks_.size()), 1, [&](std::int64_t chunk, std::int64_t) {
+    chunks_[static_cast<std::size_t>(chunk)].Reserve();
+  });
+}
+
+template <typename T>
+void VerletLists<T>::MakeChunks(std::size_t animals) {
+  const std::size_t chunks = Chunk(static_cast<std::int64_t>(animals) + kListGrain - 1);
+  while (chunks_.size() < chunks) chunks_.emplace_back(&memory_);
 }
 
 template <typename T>
@@ -207,8 +217,7 @@ void VerletLists<T>::Make(const KernelVariant* kernel, ThreadPool* pool, const C
                           const Bodies<T>& bodies) {
   loaded_ = false;
   const auto n = static_cast<std::int64_t>(bodies.size());
-  const auto chunks = static_cast<std::size_t>((n + kListGrain - 1) / kListGrain);
-  while (chunks_.size() < chunks) chunks_.emplace_back(&memory_);
+  MakeChunks(bodies.size());
   pool->For(0, n, kListGrain, [&](std::int64_t first, std::int64_t last) {
     NearLists& lists = chunks_[static_cast<std::size_t>(first / kListGrain)];
     lists.Clear();

@@ -33,9 +33,9 @@ class VerletLists {
   // `skin` is a share of the reach; 0 makes new lists for every change.
   explicit VerletLists(double skin) : skin_(skin) {}
 
-  // Takes the memory that so many animals need, but for the lists', ahead of the first step: what
-  // is written for the first time costs far more than what is written again.
-  void Reserve(std::size_t animals);
+  // Takes the memory that so many animals need ahead of the first step, each thread that of its
+  // share: what is written for the first time costs far more than what is written again.
+  void Reserve(std::size_t animals, ThreadPool* pool);
 
   // Sees to it that everybody within reach is listed. Where that takes new lists, the herd is
   // brought into a new order.
@@ -63,6 +63,7 @@ class VerletLists {
   void Renew(const NearReach<T>& reach, ThreadPool* pool, Herd<T>* herd);
   void Make(const KernelVariant* kernel, ThreadPool* pool, const CellGrid<T>& grid,
             const Bodies<T>& bodies);
+  void MakeChunks(std::size_t animals);
 
   double skin_;
   NearReach<T> listed_{T(-1), T(-1)};  // what the lists hold; below 0: there are none
