@@ -13,6 +13,7 @@
 #include "reconstruct/fit/kernel_evidence.h"
 #include "reconstruct/fit/kernel_misfit.h"
 #include "reconstruct/fit/kernel_moments.h"
+#include "reconstruct/fit/kernel_penalties.h"
 #include "reconstruct/fit/kernel_sandwich.h"
 #include "simulate/core/check.h"
 #include "simulate/core/rng.h"
@@ -23,9 +24,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int kSmoothnesses = 6;  // of a kernel, over the breaks
-constexpr int kRounds = 3;        // of choosing breaks
-constexpr int kDraws = 2;         // of position noise once more
+constexpr int kRounds = 3;  // of choosing breaks
+constexpr int kDraws = 2;   // of position noise once more
 constexpr int kStages = kRounds + kDraws;
 constexpr double kFinest = 4;   // shortest part of a spline, in sd of the positions
 constexpr int kPoints = 4;      // between two breaks, that are given
@@ -88,43 +88,6 @@ std::vector<Trajectories> Disturbed(std::vector<Trajectories> flocks,
     }
   }
   return flocks;
-}
-
-// Integrals of (phi'')^2 under hats over the breaks, in units of the breaks' distances, so that
-// closer breaks allow more bending; placed in the block of a kernel among all terms.
-void AddPenalties(const SplineBasis& basis, Index offset, Index terms, KernelPenalties* penalties) {
-  const std::vector<double>& breaks = basis.breaks();
-  const auto intervals = static_cast<double>(breaks.size() - 1);
-  for (int g = 0; g < kSmoothnesses; ++g) {
-    const auto weight = [&](double r) {
-      const auto after = std::upper_bound(breaks.begin() + 1, breaks.end() - 1, r);
-      const double width = *after - *(after - 1);
-      const double at =
-          static_cast<double>(after - breaks.begin()) - 1 + (r - *(after - 1)) / width;
-      const double hat = 1 - std::abs(at / intervals * (kSmoothnesses - 1) - g);
-      return std::max(0.0, hat) * width * width * width;
-    };
-    const std::vector<double> roughness = basis.Roughness(2, weight);
-    MatrixXd penalty = MatrixXd::Zero(terms, terms);
-    const Index n = basis.size();
-    for (Index i = 0; i < n; ++i) {
-      for (Index j = 0; j < n; ++j) {
-        penalty(offset + i, offset + j) = roughness[static_cast<std::size_t>(i * n + j)];
-      }
-    }
-    penalties->parts.push_back(std::move(penalty));
-  }
-  penalties->pins.push_back(offset);
-  penalties->pins.push_back(offset + basis.size() - 1);
-}
-
-KernelPenalties Penalties(const KernelDesign& design) {
-  KernelPenalties penalties;
-  if (design.has_attraction) AddPenalties(design.attraction, 0, design.terms(), &penalties);
-  if (design.has_alignment) {
-    AddPenalties(design.alignment, design.alignment_offset(), design.terms(), &penalties);
-  }
-  return penalties;
 }
 
 FittedKernel KernelOf(const std::string& name, const SplineBasis& basis, Index offset,
@@ -345,7 +308,7 @@ KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajecto
       fit.status = KernelFitStatus::kTooFewRows;
       return fit;
     }
-    evidence = SolveKernels(moments, moments, Penalties(design), known_variance);
+    evidence = SolveKernels(moments, moments, SmoothnessOf(design), known_variance);
     Report(progress, round + 1, kStages);
   }
   if (design.has_alignment && evidence.position_variance > 0) {
@@ -365,7 +328,7 @@ KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajecto
       }
       Report(progress, kRounds + 1 + draw, kStages);
     }
-    evidence = SolveKernels(moments, corrected, Penalties(design), known_variance);
+    evidence = SolveKernels(moments, corrected, SmoothnessOf(design), known_variance);
   } else {
     evidence.covariance = KernelSandwich(design, observed, moments.modes, evidence);
   }
