@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <mutex>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/core/utils/logger.hpp>
 #include <tuple>
 #include <utility>
 
@@ -96,7 +95,6 @@ BoardSearch SearchPictures(const std::vector<fs::path>& pictures, const Board& b
   std::int64_t done = 0;
   std::mutex mutex;
   cv::setNumThreads(1);  // the pictures keep the threads busy
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to tell
   ParallelFor(threads, 0, count, 1, [&](std::int64_t first, std::int64_t) {
     const auto k = static_cast<std::size_t>(first);
     const Image image = ReadImage(pictures[k]);

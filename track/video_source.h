@@ -19,8 +19,8 @@
 
 namespace flocklift {
 
-// Reads one frame at a time, of one source either all in colour or all as luma. Throws InputError
-// for footage that is missing, empty, no footage, has no frame, or whose pictures differ in size.
+// Reads one frame at a time, upright. Throws InputError for footage that is missing, empty, no
+// footage, has no frame, or whose frames differ in size.
 class VideoSource {
  public:
   explicit VideoSource(const std::filesystem::path& path);
@@ -37,7 +37,7 @@ class VideoSource {
   bool Read(Image* image);
   bool Read(GrayImage* image);  // luma
 
-  // Passes over so many frames, of which luma is wanted later; false where there are fewer.
+  // Passes over so many frames; false where there are fewer.
   bool Skip(std::int64_t frames);
 
  private:

@@ -10,14 +10,17 @@ extern "C" {
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <thread>
 
 #include "simulate/core/check.h"
+#include "simulate/core/parallel_for.h"
 #include "simulate/media/bgr_converter.h"
 #include "track/spread_luma.h"
 
 namespace flocklift::internal {
 namespace {
+
+constexpr int kMostThreads = 16;
+constexpr int kMostFaults = 1000;  // one after the other, of a film that may still go on
 
 bool HasLumaPlane(int format) {
   switch (format) {
@@ -47,13 +50,13 @@ int QuarterTurns(const AVStream* stream) {
 
 }  // namespace
 
-VideoStream::VideoStream(const std::filesystem::path& path) {
+VideoStream::VideoStream(const std::filesystem::path& path, int threads) {
   const auto must = [&path](bool is_so) {
     if (is_so) return;
     throw InputError(path.string(), 0, "this is no video that can be decoded",
                      "convert it with ffmpeg, for example to H.264 in .mp4");
   };
-  av_log_set_level(AV_LOG_QUIET);  // its messages would stand beside our one line
+  QuietLibav();
   AVFormatContext* input = nullptr;
   must(avformat_open_input(&input, path.c_str(), nullptr, nullptr) >= 0);
   input_.reset(input);
@@ -64,17 +67,21 @@ VideoStream::VideoStream(const std::filesystem::path& path) {
   const AVStream* stream = input->streams[index_];
   codec_.reset(avcodec_alloc_context3(decoder));
   must(avcodec_parameters_to_context(codec_.get(), stream->codecpar) >= 0);
-  codec_->thread_count = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  codec_->thread_count = threads > 0 ? threads : std::min(ResolveThreads(0), kMostThreads);
   must(avcodec_open2(codec_.get(), decoder, nullptr) >= 0);
   must(codec_->width > 0 && codec_->height > 0);
   turns_ = QuarterTurns(stream);
+  width_ = turns_ % 2 == 1 ? codec_->height : codec_->width;
+  height_ = turns_ % 2 == 1 ? codec_->width : codec_->height;
 }
 
-int VideoStream::width() const { return turns_ % 2 == 1 ? codec_->height : codec_->width; }
-int VideoStream::height() const { return turns_ % 2 == 1 ? codec_->width : codec_->height; }
-
 std::optional<double> VideoStream::fps() const {
-  const double fps = av_q2d(av_guess_frame_rate(input_.get(), input_->streams[index_], nullptr));
+  AVStream* const stream = input_->streams[index_];
+  // The mean where the rate varies, as phones' does.
+  const double mean = av_q2d(stream->avg_frame_rate);
+  const double fps = std::isfinite(mean) && mean > 0
+                         ? mean
+                         : av_q2d(av_guess_frame_rate(input_.get(), stream, nullptr));
   if (!std::isfinite(fps) || fps <= 0) return std::nullopt;
   return fps;
 }
@@ -89,18 +96,24 @@ std::optional<std::int64_t> VideoStream::frame_count() const {
 }
 
 const AVFrame* VideoStream::Next() {
-  while (true) {
+  for (int faults = 0; faults < kMostFaults;) {
     const int status = avcodec_receive_frame(codec_.get(), frame_.get());
     if (status >= 0) {
       if ((frame_->flags & AV_FRAME_FLAG_DISCARD) != 0) continue;
       return frame_.get();
     }
-    if (status != AVERROR(EAGAIN) || is_drained_) return nullptr;
+    if (status == AVERROR_EOF) return nullptr;
+    if (status != AVERROR(EAGAIN)) {  // of one packet, behind which others may be well
+      ++faults;
+      continue;
+    }
+    if (is_drained_) return nullptr;
     if (!Feed()) {
       is_drained_ = true;
       avcodec_send_packet(codec_.get(), nullptr);
     }
   }
+  return nullptr;
 }
 
 void VideoStream::Flush() {

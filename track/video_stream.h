@@ -18,12 +18,13 @@ namespace flocklift::internal {
 
 class VideoStream {
  public:
-  // Throws InputError when there is no video that can be decoded.
-  explicit VideoStream(const std::filesystem::path& path);
+  // Throws InputError when there is no video that can be decoded. The frames are the same for any
+  // number of threads; 0: as many as there are cores, 16 at most.
+  explicit VideoStream(const std::filesystem::path& path, int threads = 0);
 
   // Upright, as the container says that it is to be shown [px].
-  int width() const;
-  int height() const;
+  int width() const { return width_; }
+  int height() const { return height_; }
   int turns() const { return turns_; }              // quarters clockwise to be upright
   std::optional<double> fps() const;                // [1/s]
   std::optional<std::int64_t> frame_count() const;  // as the file declares it
@@ -46,7 +47,7 @@ class VideoStream {
   AvFrame frame_{av_frame_alloc()};
   AvPacket packet_{av_packet_alloc()};
   int index_ = -1;
-  int turns_ = 0;
+  int turns_ = 0, width_ = 0, height_ = 0;
   bool is_drained_ = false;
 };
 

@@ -11,7 +11,6 @@
 #include "simulate/core/image.h"
 
 struct AVFrame;
-struct SwsContext;
 
 namespace flocklift::internal {
 
@@ -24,12 +23,13 @@ class BgrConverter {
   BgrConverter(const BgrConverter&) = delete;
   BgrConverter& operator=(const BgrConverter&) = delete;
 
-  // At `width` x `height` px; false for a pixel format that cannot be converted.
+  // At `width` x `height` px; false for a pixel format that cannot be converted, `image` then being
+  // as it was.
   bool Convert(const AVFrame& frame, int width, int height, Image* image);
 
  private:
-  bool exact_;
-  SwsContext* scaler_ = nullptr;
+  struct Scaler;
+  std::unique_ptr<Scaler> scaler_;
 };
 
 // Are 0 and 255 black and white (and not 16 and 235)?

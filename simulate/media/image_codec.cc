@@ -5,10 +5,11 @@
 
 extern "C" {
 #include <libavutil/opt.h>
-#include <libswscale/swscale.h>
 }
 
 #include <algorithm>
+#include <cctype>
+#include <climits>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -31,21 +32,35 @@ using internal::AvCodec;
 using internal::AvFrame;
 using internal::AvPacket;
 
-constexpr const char* kPngCompression = "6";  // of 9
+constexpr int kPngCompression = 6;  // of 9
 
 // By the first bytes, as the formats' definitions have them.
 AVCodecID CodecOf(std::string_view bytes) {
   using std::string_view_literals::operator""sv;
-  const auto begins = [&](std::string_view with) { return bytes.starts_with(with); };
+  const auto holds = [&](std::size_t at, std::string_view what) {
+    return bytes.size() >= at && bytes.substr(at).starts_with(what);
+  };
+  const auto begins = [&](std::string_view with) { return holds(0, with); };
   if (begins("\x89PNG"sv)) return AV_CODEC_ID_PNG;
   if (begins("\xff\xd8\xff"sv)) return AV_CODEC_ID_MJPEG;
   if (begins("II*\0"sv) || begins("MM\0*"sv)) return AV_CODEC_ID_TIFF;
-  if (begins("BM"sv)) return AV_CODEC_ID_BMP;
-  if (begins("RIFF"sv) && bytes.substr(std::min<std::size_t>(8, bytes.size())).starts_with("WEBP"))
-    return AV_CODEC_ID_WEBP;
-  if (begins("P1"sv) || begins("P4"sv)) return AV_CODEC_ID_PBM;
-  if (begins("P2"sv) || begins("P5"sv)) return AV_CODEC_ID_PGM;
-  if (begins("P3"sv) || begins("P6"sv)) return AV_CODEC_ID_PPM;
+  if (begins("BM"sv) && holds(6, "\0\0\0\0"sv)) return AV_CODEC_ID_BMP;
+  if (begins("RIFF"sv) && holds(8, "WEBP"sv)) return AV_CODEC_ID_WEBP;
+  if (begins("P") && bytes.size() > 2 && std::isspace(static_cast<unsigned char>(bytes[2])) != 0) {
+    switch (bytes[1]) {
+      case '1':
+      case '4':
+        return AV_CODEC_ID_PBM;
+      case '2':
+      case '5':
+        return AV_CODEC_ID_PGM;
+      case '3':
+      case '6':
+        return AV_CODEC_ID_PPM;
+      default:
+        break;
+    }
+  }
   return AV_CODEC_ID_NONE;
 }
 
@@ -55,15 +70,16 @@ std::string_view AsText(std::span<const std::uint8_t> bytes) {
 
 // The picture in the file's own pixels; null when it is broken.
 AvFrame Decode(std::span<const std::uint8_t> bytes) {
+  internal::QuietLibav();
   const AVCodec* decoder = avcodec_find_decoder(CodecOf(AsText(bytes)));
-  if (decoder == nullptr) return nullptr;
-  av_log_set_level(AV_LOG_QUIET);
+  if (decoder == nullptr || bytes.size() > INT_MAX - AV_INPUT_BUFFER_PADDING_SIZE) return nullptr;
   const AvCodec codec(avcodec_alloc_context3(decoder));
   const AvPacket packet(av_packet_alloc());
   AvFrame frame(av_frame_alloc());
   codec->thread_count = 1;
   // A part of a picture is none. Of a TIFF small faults would be taken for it.
   if (decoder->id != AV_CODEC_ID_TIFF) codec->err_recognition = AV_EF_EXPLODE;
+  if (!codec || !packet || !frame) return nullptr;
   if (av_new_packet(packet.get(), static_cast<int>(bytes.size())) < 0) return nullptr;
   std::memcpy(packet->data, bytes.data(), bytes.size());
   if (avcodec_open2(codec.get(), decoder, nullptr) < 0 ||
@@ -86,21 +102,32 @@ void Must(int status, const std::string& what) {
   if (status < 0) throw std::runtime_error("cannot encode a picture: " + what);
 }
 
-// `image` in the pixels that an encoder wants.
-AvFrame FrameOf(const Image& image, AVPixelFormat format) {
+AvFrame NewFrame(const Image& image, AVPixelFormat format) {
   AvFrame frame(av_frame_alloc());
+  Must(frame ? 0 : AVERROR(ENOMEM), "out of memory");
   frame->format = format;
   frame->width = image.width;
   frame->height = image.height;
   Must(av_frame_get_buffer(frame.get(), 0), "out of memory");
-  SwsContext* scaler =
+  return frame;
+}
+
+// `image` in the pixels that an encoder wants. The scaler reads past the end of rows: it is given
+// some that have room there.
+AvFrame FrameOf(const Image& image, AVPixelFormat format) {
+  const AvFrame padded = NewFrame(image, AV_PIX_FMT_BGR24);
+  for (int v = 0; v < image.height; ++v) {
+    std::copy_n(image.Row(v), 3 * image.width,
+                padded->data[0] + static_cast<std::ptrdiff_t>(v) * padded->linesize[0]);
+  }
+  AvFrame frame = NewFrame(image, format);
+  const internal::AvScaler scaler(
       sws_getContext(image.width, image.height, AV_PIX_FMT_BGR24, image.width, image.height, format,
-                     SWS_AREA | SWS_BITEXACT | SWS_ACCURATE_RND, nullptr, nullptr, nullptr);
-  if (scaler == nullptr) throw std::runtime_error("cannot encode a picture: no such pixels");
-  const std::uint8_t* rows[4] = {image.bgr.data(), nullptr, nullptr, nullptr};
-  const int strides[4] = {3 * image.width, 0, 0, 0};
-  sws_scale(scaler, rows, strides, 0, image.height, frame->data, frame->linesize);
-  sws_freeContext(scaler);
+                     SWS_AREA | SWS_BITEXACT | SWS_ACCURATE_RND, nullptr, nullptr, nullptr));
+  Must(scaler ? 0 : AVERROR(EINVAL), "no such pixels");
+  Must(sws_scale(scaler.get(), padded->data, padded->linesize, 0, image.height, frame->data,
+                 frame->linesize),
+       "its colours cannot be converted");
   return frame;
 }
 
@@ -109,9 +136,12 @@ template <typename Configure>
 std::vector<std::uint8_t> Encode(const Image& image, AVCodecID id, AVPixelFormat format,
                                  const Configure& configure) {
   Check(image.width > 0 && image.height > 0, "a picture without pixels cannot be encoded");
+  internal::QuietLibav();
   const AVCodec* encoder = avcodec_find_encoder(id);
   if (encoder == nullptr) throw std::runtime_error("libavcodec lacks the encoder of a picture");
   const AvCodec codec(avcodec_alloc_context3(encoder));
+  const AvPacket packet(av_packet_alloc());
+  Must(codec && packet ? 0 : AVERROR(ENOMEM), "out of memory");
   codec->width = image.width;
   codec->height = image.height;
   codec->pix_fmt = format;
@@ -123,7 +153,6 @@ std::vector<std::uint8_t> Encode(const Image& image, AVCodecID id, AVPixelFormat
   const AvFrame frame = FrameOf(image, format);
   frame->quality = codec->global_quality;
   frame->pts = 0;
-  const AvPacket packet(av_packet_alloc());
   Must(avcodec_send_frame(codec.get(), frame.get()), "its frame is refused");
   Must(avcodec_send_frame(codec.get(), nullptr), "its frame is refused");
   Must(avcodec_receive_packet(codec.get(), packet.get()), "nothing comes out");
@@ -141,8 +170,8 @@ int QuantizerOf(int quality) {
 
 std::vector<std::uint8_t> EncodePng(const Image& image) {
   return Encode(image, AV_CODEC_ID_PNG, AV_PIX_FMT_RGB24, [](AVCodecContext* codec) {
-    codec->compression_level = std::atoi(kPngCompression);
-    av_opt_set(codec->priv_data, "pred", "mixed", 0);
+    codec->compression_level = kPngCompression;
+    Must(av_opt_set(codec->priv_data, "pred", "mixed", 0), "no such prediction");
   });
 }
 

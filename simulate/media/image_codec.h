@@ -19,7 +19,8 @@ namespace flocklift {
 std::vector<std::uint8_t> EncodePng(const Image& image);
 std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality = 90);  // of 100
 
-// PNG, JPEG, TIFF, BMP, WebP, PBM, PGM or PPM, upright where Exif says how the camera was held;
+// PNG, JPEG, TIFF, BMP, WebP, PBM, PGM or PPM, upright where the Exif of a JPEG says how the
+// camera was held;
 // nothing when it is none of them, or broken.
 std::optional<Image> DecodeImage(std::span<const std::uint8_t> bytes);
 

@@ -67,7 +67,7 @@ class VideoWriter::Encoder {
   Encoder(const std::filesystem::path& path, int width, int height, double fps,
           const VideoOptions& options)
       : path_(path), file_(path), width_(width), height_(height) {
-    av_log_set_level(AV_LOG_FATAL);
+    internal::QuietLibav();
     OpenCodec(FrameRate::Nearest(fps), options);
     OpenMuxer();
     thread_ = std::thread([this] { Run(); });

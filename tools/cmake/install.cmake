@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # `cmake --install`: the program, the libraries of the rooms, their headers under
-# include/flocklift/, and what find_package(flocklift) reads.
+# include/flocklift/ (but for those that show libav), and what find_package(flocklift) reads.
 
 include(CMakePackageConfigHelpers)
 
@@ -28,7 +28,9 @@ foreach(room simulate track reconstruct)
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/flocklift
-          FILES_MATCHING PATTERN "*.h")
+          FILES_MATCHING PATTERN "*.h"
+          PATTERN libav.h EXCLUDE
+          PATTERN video_stream.h EXCLUDE)
 endforeach()
 install(TARGETS flocklift RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

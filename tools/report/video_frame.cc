@@ -3,8 +3,10 @@
 
 #include "tools/report/video_frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "simulate/core/check.h"

@@ -19,8 +19,9 @@ struct EmbeddedPicture {
   std::string data_uri;       // JPEG, perhaps smaller than the footage
 };
 
-// Frame `frame` (from 1) of a video or a folder or pattern of pictures, at most `widest` px wide;
-// nothing when there is no such frame or the footage cannot be read.
+// Frame `frame` (from 1) of a video (whose packets are gone through once) or a folder or pattern of
+// pictures, at most `widest` px wide; nothing when there is no such frame or the footage cannot be
+// read.
 std::optional<EmbeddedPicture> ReadVideoFrame(const std::filesystem::path& footage, int frame,
                                               int widest);
 

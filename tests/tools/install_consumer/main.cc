@@ -11,6 +11,7 @@
 #include "simulate/camera/calibrate.h"
 #include "simulate/camera/projection.h"
 #include "simulate/flock/engine.h"
+#include "simulate/media/image_codec.h"
 #include "track/tracker.h"
 
 namespace {
@@ -47,6 +48,12 @@ bool TracksTwoDots() {
   return result.tracks.tracklets.size() == 2;
 }
 
+bool KeepsAPicture() {
+  const flocklift::Image image(7, 5);
+  const auto back = flocklift::DecodeImage(flocklift::EncodePng(image));
+  return back && back->bgr == image.bgr;
+}
+
 bool KnowsASpecies() { return flocklift::PresetOf("jackdaw").wingspan.mean > 0.3; }
 
 bool RefusesToCalibrateWithoutViews() {
@@ -69,6 +76,7 @@ int main() {
   expect(ProjectsAPoint(), "project a point");
   expect(StepsAFlock(), "step a flock");
   expect(TracksTwoDots(), "track two dots");
+  expect(KeepsAPicture(), "keep a picture");
   expect(KnowsASpecies(), "know a species");
   expect(RefusesToCalibrateWithoutViews(), "refuse to calibrate without views");
   return failed;
