@@ -25,7 +25,7 @@ class BoidsMotion final : public Motion<T> {
         kernel_(std::is_same_v<T, float> ? ChooseKernel(context.kernel) : nullptr),
         forces_(context, herd.size()),
         noise_(Stream::kNoise, herd.size()) {
-    if (p_.nearest == 0 && forces_.Reach() <= 0) lists_.Reserve(herd.size(), context.pool);
+    if (MayList()) lists_.Reserve(ListReach(), context.world->dt, kernel_, context.pool, herd.now);
   }
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
@@ -50,10 +50,11 @@ class BoidsMotion final : public Motion<T> {
 
  private:
   // Other terms may need the order of cells at every step; else lists are kept where they last.
+  bool MayList() const { return p_.nearest == 0 && forces_.Reach() <= 0; }
+  NearReach<T> ListReach() const { return {static_cast<T>(Reach(p_)), T(0)}; }
+
   void AddPairs(double dt, ThreadPool* pool, Herd<T>* herd) {
-    const NearReach<T> reach{static_cast<T>(Reach(p_)), T(0)};
-    const bool listed = p_.nearest == 0 && forces_.Reach() <= 0 &&
-                        lists_.UpdateIfWorth(reach, dt, kernel_, pool, herd);
+    const bool listed = MayList() && lists_.UpdateIfWorth(ListReach(), dt, kernel_, pool, herd);
     if (!listed) herd->SortBy(std::max(Reach(p_), forces_.Reach()), pool);
     NeighbourLists nearest;
     PairTask<T> task = TaskOf(herd);

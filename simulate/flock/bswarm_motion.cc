@@ -30,7 +30,7 @@ class BSwarmMotion final : public Motion<T> {
         forces_(context, herd.size()),
         noise_(Stream::kNoise, herd.size()),
         near_(herd.size()) {
-    if (MayList()) lists_.Reserve(herd.size(), context.pool);
+    if (MayList()) lists_.Reserve(ListReach(), context.world->dt, kernel_, context.pool, herd.now);
   }
 
   void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) override {
@@ -77,12 +77,13 @@ class BSwarmMotion final : public Motion<T> {
   // Does nothing else need an order of its own?
   bool MayList() const { return p_.most == 0 && forces_.Reach() <= 0 && !Avoids(Avoidance::kOrca); }
 
+  NearReach<T> ListReach() const { return {F(Reach(p_.zones)), T(0)}; }
+
   // The three zones, from lists that are kept where they last. With a sample, repulsion still hears
   // everybody who is near: a pass of its own in an order of its own, whose result is kept by
   // animal.
   void AddNeighbours(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) {
-    const NearReach<T> reach{F(Reach(p_.zones)), T(0)};
-    if (MayList() && lists_.UpdateIfWorth(reach, around.dt(), kernel_, pool, herd)) {
+    if (MayList() && lists_.UpdateIfWorth(ListReach(), around.dt(), kernel_, pool, herd)) {
       PairTask<T> task = TaskOf(herd);
       task.lists = &lists_;
       return SumPairs<T>(p_.zones, kernel_, task, pool);

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "simulate/flock/pair_forces.h"
-#include "simulate/core/scratch.h"
 
 #include <algorithm>
 #include <type_traits>
 
 #include "simulate/core/check.h"
+#include "simulate/core/scratch.h"
 #include "simulate/flock/listed_sums.h"
 #include "simulate/shapes/nearest.h"
 

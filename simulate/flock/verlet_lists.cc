@@ -149,8 +149,10 @@ bool VerletLists<T>::Hold(const NearReach<T>& reach, const KernelVariant* kernel
 }
 
 template <typename T>
-void VerletLists<T>::Reserve(std::size_t animals, ThreadPool* pool) {
-  if (animals < kFewest) return;
+void VerletLists<T>::Reserve(const NearReach<T>& reach, double dt, const KernelVariant* kernel,
+                             ThreadPool* pool, const Bodies<T>& now) {
+  const std::size_t animals = now.size();
+  if (kernel == nullptr || animals < kFewest || !ShouldLast(reach, dt, pool, now)) return;
   MakeRoom(animals, &rows_);
   for (std::vector<T>* column : {&x_, &y_, &z_}) {
     column->resize(animals + Bodies<T>::kPadding);
@@ -160,6 +162,16 @@ void VerletLists<T>::Reserve(std::size_t animals, ThreadPool* pool) {
   pool->For(0, static_cast<std::int64_t>(chunks_.size()), 1, [&](std::int64_t chunk, std::int64_t) {
     chunks_[static_cast<std::size_t>(chunk)].Reserve();
   });
+}
+
+// For several steps, at the velocities of now.
+template <typename T>
+bool VerletLists<T>::ShouldLast(const NearReach<T>& reach, double dt, ThreadPool* pool,
+                                const Bodies<T>& now) const {
+  const T* const velocities[3] = {now.vx.data(), now.vy.data(), now.vz.data()};
+  const Box<T> box = BoxOf<T>(velocities, now.size(), pool, [](std::size_t, std::size_t) {});
+  const double nearer = 2 * dt * Farthest(velocities, now.size(), box, pool);  // in a step
+  return kLeastSteps * nearer <= skin_ * reach.Farthest();
 }
 
 template <typename T>
@@ -196,11 +208,7 @@ bool VerletLists<T>::UpdateIfWorth(const NearReach<T>& reach, double dt,
   if (herd->size() < kFewest) return false;
   if (!Hold(reach, kernel, pool, herd->now)) {
     listed_ = {T(-1), T(-1)};
-    const Bodies<T>& now = herd->now;
-    const T* const velocities[3] = {now.vx.data(), now.vy.data(), now.vz.data()};
-    const Box<T> box = BoxOf<T>(velocities, now.size(), pool, [](std::size_t, std::size_t) {});
-    const double nearer = 2 * dt * Farthest(velocities, now.size(), box, pool);  // in a step
-    if (!(kLeastSteps * nearer <= skin_ * reach.Farthest())) return false;
+    if (!ShouldLast(reach, dt, pool, herd->now)) return false;
     Renew(reach, pool, herd);
     if (MeanNeighbours(herd->grid, herd->size()) > kMostNeighbours) {
       listed_ = {T(-1), T(-1)};

@@ -33,9 +33,11 @@ class VerletLists {
   // `skin` is a share of the reach; 0 makes new lists for every change.
   explicit VerletLists(double skin) : skin_(skin) {}
 
-  // Takes the memory that so many animals need ahead of the first step, each thread that of its
-  // share: what is written for the first time costs far more than what is written again.
-  void Reserve(std::size_t animals, ThreadPool* pool);
+  // Takes the memory that UpdateIfWorth would, ahead of the first step and each thread that of its
+  // share: what is written for the first time costs far more than what is written again. Nothing
+  // where lists should not last.
+  void Reserve(const NearReach<T>& reach, double dt, const KernelVariant* kernel, ThreadPool* pool,
+               const Bodies<T>& now);
 
   // Sees to it that everybody within reach is listed. Where that takes new lists, the herd is
   // brought into a new order.
@@ -64,6 +66,8 @@ class VerletLists {
   void Make(const KernelVariant* kernel, ThreadPool* pool, const CellGrid<T>& grid,
             const Bodies<T>& bodies);
   void MakeChunks(std::size_t animals);
+  bool ShouldLast(const NearReach<T>& reach, double dt, ThreadPool* pool,
+                  const Bodies<T>& now) const;
 
   double skin_;
   NearReach<T> listed_{T(-1), T(-1)};  // what the lists hold; below 0: there are none
