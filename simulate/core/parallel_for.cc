@@ -11,7 +11,8 @@
 namespace flocklift {
 namespace {
 
-constexpr std::uint32_t kLoopsBetweenSettling = 16;
+constexpr int kLoopsBetweenSettling = 16;
+constexpr std::uint32_t kOpen = std::uint32_t{1} << 31U;  // of a loop that may be entered
 
 // Looks for a while before it is worth falling asleep: waking takes longer than many a loop, and
 // may bring two threads onto one core while another is free. The core is soon offered to others,
@@ -75,11 +76,20 @@ ThreadPool::~ThreadPool() {
 void ThreadPool::Run(std::function<void(int)> job) {
   job_ = std::move(job);
   cores_->Settle(0);
-  running_ = static_cast<int>(workers_.size());
+  inside_ = kOpen;
   Wake();
   job_(0);
-  AwaitChange([this] { return running_ == 0; });
-  for (int running; (running = running_) != 0;) running_.wait(running);
+  inside_ &= ~kOpen;
+  AwaitChange([this] { return inside_ == 0; });
+  for (std::uint32_t inside; (inside = inside_) != 0;) inside_.wait(inside);
+}
+
+bool ThreadPool::Enter() {
+  std::uint32_t now = inside_;
+  while ((now & kOpen) != 0) {
+    if (inside_.compare_exchange_weak(now, now + 1)) return true;
+  }
+  return false;
 }
 
 void ThreadPool::Wake() {
@@ -88,13 +98,16 @@ void ThreadPool::Wake() {
 }
 
 void ThreadPool::Work(int thread) {
-  for (std::uint32_t seen = 0;; ++seen) {
+  int loops = 0;
+  for (std::uint32_t seen = 0;;) {
     AwaitChange([&] { return generation_ != seen; });
     generation_.wait(seen);
+    seen = generation_;
     if (stop_) return;
-    if (seen % kLoopsBetweenSettling == 0) cores_->Settle(thread);
+    if (loops++ % kLoopsBetweenSettling == 0) cores_->Settle(thread);
+    if (!Enter()) continue;
     job_(thread);
-    if (--running_ == 0) running_.notify_one();
+    if (--inside_ == 0) inside_.notify_one();
   }
 }
 

@@ -87,9 +87,12 @@ class ThreadPool {
 
   class Cores;
 
-  // Calls job(thread) on each thread and waits for all of them.
+  // Calls job(thread) on this thread, and on others that come before it is done; waits for these. A
+  // thread that the system keeps from running, for somebody else or because it sleeps, is not
+  // waited for: its share is the others' then.
   void Run(std::function<void(int)> job);
   void Wake();
+  bool Enter();
   void Work(int thread);
 
   std::vector<std::thread> workers_;
@@ -97,7 +100,7 @@ class ThreadPool {
   std::vector<Next> next_;        // of each thread's share
   std::unique_ptr<Cores> cores_;
   std::atomic<std::uint32_t> generation_{0};
-  std::atomic<int> running_{0};
+  std::atomic<std::uint32_t> inside_{0};  // workers in the loop, and whether others may enter
   std::atomic<bool> stop_{false};
 };
 

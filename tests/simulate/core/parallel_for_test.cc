@@ -58,6 +58,19 @@ TEST(ParallelFor, TheFirstFailureIsRethrown) {
   }
 }
 
+// More threads than cores: most come late to a loop, and some when the next has begun.
+TEST(ThreadPool, ThreadsThatComeLateDoNoHarm) {
+  ThreadPool pool(12);
+  std::vector<std::int64_t> sums(40);
+  for (int round = 0; round < 5000; ++round) {
+    const std::vector<int> own(40, round);  // gone when the loop is
+    pool.For(0, 40, 1, [&](std::int64_t first, std::int64_t) {
+      sums[static_cast<std::size_t>(first)] += own[static_cast<std::size_t>(first)];
+    });
+  }
+  for (const std::int64_t sum : sums) EXPECT_EQ(sum, 4999 * 2500);
+}
+
 TEST(ThreadPool, ManyShortLoops) {
   ThreadPool pool(3);
   EXPECT_EQ(pool.threads(), 3);
