@@ -330,7 +330,7 @@ KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajecto
     }
     evidence = SolveKernels(moments, corrected, SmoothnessOf(design), known_variance);
   } else {
-    evidence.covariance = KernelSandwich(design, observed, moments.modes, evidence);
+    evidence.covariance = KernelSandwich(design, observed, moments.modes, evidence, threads);
   }
   fit.kernels = KernelsOf(design, evidence);
   AddMisfits(pairs, evidence, &fit.kernels);

@@ -46,7 +46,7 @@ struct KernelRun {
   int animal = 0, first = 0, frames = 0;
 };
 
-// Frames that were measured, one after the other, in pieces of nearly one length.
+// Frames that were measured, one after the other, in pieces of nearly one length; by flock.
 std::vector<KernelRun> KernelRuns(const KernelDesign& design,
                                   const std::vector<ObservedFlock>& flocks);
 

@@ -5,6 +5,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cstdint>
+
+#include "simulate/core/parallel_for.h"
 
 namespace flocklift {
 namespace {
@@ -63,18 +67,23 @@ MatrixXd Larger(const MatrixXd& v, const MatrixXd& other) {
 }  // namespace
 
 MatrixXd KernelSandwich(const KernelDesign& design, const std::vector<ObservedFlock>& flocks,
-                        const std::map<int, KernelModes>& modes, const KernelEvidence& evidence) {
+                        const std::map<int, KernelModes>& modes, const KernelEvidence& evidence,
+                        int threads) {
   const MatrixXd& v = evidence.covariance;
   if (flocks.size() < 2) return v;
-  const auto n = static_cast<double>(flocks.size());
-  MatrixXd scores = MatrixXd::Zero(static_cast<Index>(flocks.size()), v.rows());
-  for (const KernelRun& run : KernelRuns(design, flocks)) {
-    scores.row(static_cast<Index>(run.flock)) +=
-        ScoreOf(design, flocks[run.flock], run, modes.at(run.frames), evidence).transpose();
-  }
-  const Eigen::RowVectorXd mean = scores.colwise().mean();
-  const MatrixXd moved = (scores.rowwise() - mean) * v;
-  return Larger(v, n / (n - 1) * moved.transpose() * moved);
+  const auto n = static_cast<Index>(flocks.size());
+  const std::vector<KernelRun> runs = KernelRuns(design, flocks);
+  MatrixXd scores = MatrixXd::Zero(v.rows(), n);
+  ParallelFor(threads, 0, n, 1, [&](std::int64_t f, std::int64_t) {
+    const auto flock = static_cast<std::size_t>(f);
+    for (const KernelRun& run : std::ranges::equal_range(runs, flock, {}, &KernelRun::flock)) {
+      scores.col(f) += ScoreOf(design, flocks[flock], run, modes.at(run.frames), evidence);
+    }
+  });
+  const VectorXd mean = scores.rowwise().mean();
+  const MatrixXd moved = v * (scores.colwise() - mean);
+  const double of_sample = static_cast<double>(n) / static_cast<double>(n - 1);
+  return Larger(v, of_sample * moved * moved.transpose());
 }
 
 }  // namespace flocklift

@@ -23,10 +23,11 @@
 namespace flocklift {
 
 // V' of a fit to `flocks`, each of which is a flight; `modes` by run length. Of one flock: V. Not
-// for fits to moments that noise has been taken out of: these scores are the plain moments'.
+// for fits to moments that noise has been taken out of: these scores are the plain moments'. Same
+// bytes at any number of threads.
 Eigen::MatrixXd KernelSandwich(const KernelDesign& design, const std::vector<ObservedFlock>& flocks,
                                const std::map<int, KernelModes>& modes,
-                               const KernelEvidence& evidence);
+                               const KernelEvidence& evidence, int threads);
 
 }  // namespace flocklift
 
