@@ -244,8 +244,9 @@ std::int64_t CountKernelRows(const KernelDesign& design, const std::vector<Obser
   const std::int64_t coordinates =
       std::count(design.coordinates.begin(), design.coordinates.end(), true);
   std::int64_t rows = 0;
-  for (const KernelRun& run : KernelRuns(design, flocks))
+  for (const KernelRun& run : KernelRuns(design, flocks)) {
     rows += coordinates * (run.frames - design.order);
+  }
   return rows;
 }
 
