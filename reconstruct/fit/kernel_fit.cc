@@ -242,10 +242,11 @@ double FittedKernel::Sd(double distance) const {
                              static_cast<std::size_t>(local.first + j)];
     }
   }
+  const double of_noise = std::sqrt(std::max(variance, 0.0));
+  if (misfit.empty()) return of_noise;
   const std::vector<double>& breaks = basis.breaks();
   const auto after = std::upper_bound(breaks.begin() + 1, breaks.end() - 1, distance);
-  return std::hypot(std::sqrt(std::max(variance, 0.0)),
-                    misfit[static_cast<std::size_t>(after - breaks.begin()) - 1]);
+  return std::hypot(of_noise, misfit[static_cast<std::size_t>(after - breaks.begin()) - 1]);
 }
 
 KernelFit FitKernels(const KernelFitOptions& options, const std::vector<Trajectories>& flocks,

@@ -101,7 +101,8 @@ struct FittedKernel {
   // sd of Value at a distance: of noise, and of misfit.
   double Sd(double distance) const;
   std::vector<double> covariance;  // of the coefficients by noise, row-major
-  std::vector<double> misfit;      // sd between each two breaks, of what a spline cannot follow
+  // sd between each two breaks, of what a spline cannot follow; empty: 0.
+  std::vector<double> misfit;
 };
 
 enum class KernelFitStatus {

@@ -285,6 +285,18 @@ TEST(KernelFit, BandsCoverWithoutNoise) {
   EXPECT_LT(variance, 25 * square);  // and are not wide for nothing
 }
 
+TEST(KernelFit, AddsMisfitToTheBandWhereThereIsAny) {
+  FittedKernel kernel;
+  kernel.basis = SplineBasis({0, 1, 2}, 0);
+  kernel.coefficients = {1, 1};
+  kernel.covariance = {9, 0, 0, 16};
+  EXPECT_DOUBLE_EQ(kernel.Sd(0.5), 3);
+  EXPECT_DOUBLE_EQ(kernel.Sd(1.5), 4);
+  kernel.misfit = {4, 3};
+  EXPECT_DOUBLE_EQ(kernel.Sd(0.5), 5);
+  EXPECT_DOUBLE_EQ(kernel.Sd(1.5), 5);
+}
+
 TEST(KernelFit, IsTheSameFromElsewhereAndInAnyOrder) {
   const KernelFlock flock{.order = 2,
                           .animals = 5,
