@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "reconstruct/fit/kernel_modes.h"
+#include "simulate/core/rng.h"
 #include "tests/reconstruct/fit/kernel_flock.h"
 
 namespace flocklift {
@@ -283,6 +284,32 @@ TEST(KernelFit, BandsCoverWithoutNoise) {
   EXPECT_GT(known, 0.9 * pairs);
   EXPECT_GT(covered, 0.88 * known);
   EXPECT_LT(variance, 25 * square);  // and are not wide for nothing
+}
+
+// Flights attract more or less than each other: bands of noise alone were a fifth as wide as that
+// makes the mean uncertain.
+TEST(KernelFit, BandsAreWiderWhereFlightsDiffer) {
+  constexpr int kFlights = 24;
+  constexpr double kUnlike = 0.3;
+  std::vector<Trajectories> flocks;
+  for (std::uint64_t flight = 1; flight <= kFlights; ++flight) {
+    Rng rng(flight, 5);
+    const double strength = 1 + kUnlike * rng.Normal();
+    const KernelFlock flock{.order = 1,
+                            .animals = 4,
+                            .frames = 30,
+                            .attraction = [&](double r) { return strength * 0.4 * std::exp(-r); },
+                            .alignment = {},
+                            .noise = 1e-3};
+    flocks.push_back(FlyKernels(flock, flight));
+  }
+  const KernelFit fit = Fit(Small(1), flocks);
+  ASSERT_TRUE(fit.IsUsable());
+  for (const double r : {1.0, 1.5, 2.0}) {
+    const double scatter = kUnlike * 0.4 * std::exp(-r) / std::sqrt(kFlights);
+    EXPECT_GT(fit.kernels[0].Sd(r), 0.6 * scatter) << r;
+    EXPECT_LT(fit.kernels[0].Sd(r), 1.8 * scatter) << r;
+  }
 }
 
 TEST(KernelFit, AddsMisfitToTheBandWhereThereIsAny) {

@@ -21,6 +21,7 @@ struct KernelFlock {
   double dt = 0.05, spread = 1, speed = 0.5;
   std::function<double(double)> attraction, alignment;
   double diffusion = 0, noise = 0;
+  double drift = 0;  // sd of what drives each animal besides, the same all the time
 };
 
 // Animals 1 .. N in frames 1 .. F.
@@ -39,8 +40,12 @@ inline Trajectories FlyKernels(const KernelFlock& flock, std::uint64_t seed) {
     x[i] = flock.spread * normal();
     v[i] = flock.speed * normal();
   }
+  std::vector<Vec3d> push(n);
+  if (flock.drift > 0) {
+    for (Vec3d& own : push) own = flock.drift * normal();
+  }
   const auto drive = [&](const std::vector<Vec3d>& at, const std::vector<Vec3d>& going) {
-    std::vector<Vec3d> f(n);
+    std::vector<Vec3d> f = push;
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
         if (j == i) continue;
