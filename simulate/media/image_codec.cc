@@ -159,8 +159,8 @@ std::vector<std::uint8_t> Encode(const Image& image, AVCodecID id, AVPixelFormat
   return {packet->data, packet->data + packet->size};
 }
 
-// The quantizer of libavcodec whose tables are as coarse as those that a quality stands for
-// (Independent JPEG Group), as files of one size have it.
+// The quantizer of libavcodec whose files are about as large as those of the Independent JPEG
+// Group's library, whose quality it is: that scales its tables by `scale`.
 int QuantizerOf(int quality) {
   const double scale = quality < 50 ? 50.0 / quality : 2 - quality / 50.0;
   return std::clamp(static_cast<int>(std::lround(12 * scale)), 1, 31);
