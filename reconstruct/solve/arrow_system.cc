@@ -66,17 +66,20 @@ void ArrowSystem::Add(const ResidualRow& row, double weight) {
   }
 }
 
+void ArrowSystem::Add(int first, const Square& square, const Pull& pull) {
+  const int count = std::min(kBand, n_ - first);
+  for (int a = 0; a < count; ++a) {
+    double* out = &band_[At(first + a, first)];
+    for (int b = 0; b <= a; ++b) out[b] += square(a, b);
+  }
+  gradient_.segment(first, count) += pull.head(count);
+}
+
 void ArrowSystem::Add(const Rows& rows, const Eigen::Vector3d& weight) {
   const int count = std::min(kBand, n_ - rows.first);
   const int last = k_ - static_cast<int>(rows.by_last.cols());
   const Eigen::Matrix<double, kBand, 3> weighted = rows.path.transpose() * weight.asDiagonal();
-  const Eigen::Matrix<double, kBand, kBand> square = weighted * rows.path;
-  for (int a = 0; a < count; ++a) {
-    const int i = rows.first + a;
-    double* out = &band_[At(i, rows.first)];
-    for (int b = 0; b <= a; ++b) out[b] += square(a, b);
-  }
-  gradient_.segment(rows.first, count) += (weighted * rows.residual).head(count);
+  Add(rows.first, weighted * rows.path, weighted * rows.residual);
   border_.row(rows.own).segment(rows.first, count) += (weighted * rows.by_own).head(count);
   border_.bottomRows(rows.by_last.cols()).middleCols(rows.first, count).noalias() +=
       rows.by_last.transpose() * weighted.topRows(count).transpose();

@@ -75,6 +75,10 @@ class ArrowSystem {
     Eigen::Matrix<double, 3, Eigen::Dynamic> by_last;
   };
   void Add(const Rows& rows, const Eigen::Vector3d& weight);
+  // Adds what many residuals of the same 12 unknowns come to, their J^T W J and J^T W r.
+  using Square = Eigen::Matrix<double, kBand, kBand>;
+  using Pull = Eigen::Matrix<double, kBand, 1>;
+  void Add(int first, const Square& square, const Pull& pull);
 
   // Factorises the band and the path's own scalars, and gives the flock's share: matrix += S,
   // gradient += g of the reduced system. False when the system is not positive definite.

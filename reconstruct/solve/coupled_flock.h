@@ -21,6 +21,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "reconstruct/cost_functions/markov.h"
@@ -81,6 +82,7 @@ class CoupledFlock {
   DepthSds Depths();
 
  private:
+  friend class OneAnimal;
   static constexpr int kSamples = 8;  // at once
 
   struct Knot {  // state of an animal at a knot
@@ -142,6 +144,11 @@ class CoupledFlock {
     std::vector<ByOffset> by;
     std::vector<std::size_t> zones;  // of line.inside
   };
+  // How an animal's state at a knot, and its acceleration times z_ref / z, follow from its path.
+  void LinearizeState(std::size_t bird, int knot, Line* line) const;
+  // After it, with the force there and the derivatives of it: the error, by its own unknowns.
+  void LinearizeError(std::size_t bird, const Knot& state, const Vec3d& force,
+                      std::span<const ByOffset> by, const SelfDerivatives& self, Line* line) const;
   void LinearizeLine(std::size_t bird, int knot, const std::vector<Knot>& states, double reach,
                      Scratch* scratch);
   ArrowSystem::Rows RowsOf(std::size_t bird, int knot) const;

@@ -23,12 +23,47 @@ Eigen::Vector3d AsEigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
+void CoupledFlock::LinearizeState(std::size_t bird, int knot, Line* line) const {
+  const Bird& b = birds_[bird];
+  std::array<Jet9, 9> path;
+  for (int a = 0; a < 9; ++a) path[Index(a)] = Jet9(b.path[Index(3 * knot + a)], a);
+  const PathPoint<Jet9> p = PointOf(path.data(), 1 / model_.knot_interval, CameraAt(b, knot));
+  const std::array<const Jet9*, 6> parts = {&p.x.x, &p.x.y, &p.x.z, &p.v.x, &p.v.y, &p.v.z};
+  for (int a = 0; a < 6; ++a) line->state.row(a) = parts[Index(a)]->v;
+  const std::array<const Jet9*, 3> a_over_z = {&p.a_over_z.x, &p.a_over_z.y, &p.a_over_z.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    line->own.row(axis) = b.reference_depth * a_over_z[Index(axis)]->v;
+  }
+}
+
+void CoupledFlock::LinearizeError(std::size_t bird, const Knot& state, const Vec3d& force,
+                                  std::span<const ByOffset> by, const SelfDerivatives& self,
+                                  Line* line) const {
+  const double factor = birds_[bird].reference_depth / state.z;
+  line->error = factor * (state.a - force);
+  Matrix36 by_own = self.by_state;
+  for (const ByOffset& b : by) {
+    by_own.leftCols<3>().diagonal().array() -= b.x;
+    if (b.on_edge()) by_own.leftCols<3>().noalias() -= b.across * b.along.transpose();
+    by_own.rightCols<3>().diagonal().array() -= b.v;
+  }
+  line->own.noalias() -= factor * by_own * line->state;
+  // 1 / z falls as log z, (1, 4, 1) / 6 of three control points, rises.
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int c = 0; c < 3; ++c) {
+      line->own(axis, 3 * c + 2) += factor * Component(force, axis) * (c == 1 ? 4.0 : 1.0) / 6;
+    }
+  }
+  line->by_log_speed = -factor * self.by_log_speed;
+}
+
 void CoupledFlock::LinearizeLine(std::size_t bird, int knot, const std::vector<Knot>& states,
                                  double reach, Scratch* scratch) {
   const double time = (birds_[bird].first_knot + knot) * model_.knot_interval;
   const std::size_t at = LineOf(bird, knot);
   Line& line = lines_[at];
   auto& [pairs, heard, by, zones] = *scratch;
+  LinearizeState(bird, knot, &line);
   Hear(at, reach, states, &heard);
   by.resize(heard.lines.size());
   PairUnknownsMatrix by_pair;
@@ -36,14 +71,8 @@ void CoupledFlock::LinearizeLine(std::size_t bird, int knot, const std::vector<K
   const Knot& s = states[at];
   const Vec3d force = pairs(heard.offsets, by.data(), &by_pair) +
                       SelfForce(forces, birds_[bird].own[kOwnLogSpeed], time, s.x, s.v, &self);
+  LinearizeError(bird, s, force, by, self, &line);
   const double factor = birds_[bird].reference_depth / s.z;
-  line.error = factor * (s.a - force);
-  Matrix36 by_own = self.by_state;
-  for (const ByOffset& b : by) {
-    by_own.leftCols<3>().diagonal().array() -= b.x;
-    if (b.on_edge()) by_own.leftCols<3>().noalias() -= b.across * b.along.transpose();
-    by_own.rightCols<3>().diagonal().array() -= b.v;
-  }
   // Those who are too near to it are in one zone, the others in another.
   constexpr std::size_t kZones = std::tuple_size_v<decltype(line.inside)>;
   line.inside = {};
@@ -68,14 +97,6 @@ void CoupledFlock::LinearizeLine(std::size_t bird, int knot, const std::vector<K
     by_edge_.push_back(by[n]);
   }
   line.edge_end = edge_.size();
-  line.own.noalias() -= factor * by_own * line.state;
-  // 1 / z falls as log z, (1, 4, 1) / 6 of three control points, rises.
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int c = 0; c < 3; ++c) {
-      line.own(axis, 3 * c + 2) += factor * Component(force, axis) * (c == 1 ? 4.0 : 1.0) / 6;
-    }
-  }
-  line.by_log_speed = -factor * self.by_log_speed;
   line.by_forces << -factor * by_pair, -factor * self.by_unknowns;
   line.by_target = -factor * self.by_target;
 }
@@ -108,25 +129,13 @@ ArrowSystem::Rows CoupledFlock::RowsOf(std::size_t bird, int knot) const {
 
 void CoupledFlock::Linearize() {
   const std::vector<Knot> states = States();
-  const double rate = 1 / model_.knot_interval, reach = forces.Reach();
+  const double reach = forces.Reach();
   inside_.clear();
   edge_.clear();
   by_edge_.clear();
   Scratch scratch{.pairs = PairForce(forces), .heard = {}, .by = {}, .zones = {}};
-  ForEachLine([&](std::size_t i, int k, std::size_t at) {
-    const Bird& bird = birds_[i];
-    Line& line = lines_[at];
-    std::array<Jet9, 9> path;
-    for (int a = 0; a < 9; ++a) path[Index(a)] = Jet9(bird.path[Index(3 * k + a)], a);
-    const PathPoint<Jet9> p = PointOf(path.data(), rate, CameraAt(bird, k));
-    const std::array<const Jet9*, 6> parts = {&p.x.x, &p.x.y, &p.x.z, &p.v.x, &p.v.y, &p.v.z};
-    for (int a = 0; a < 6; ++a) line.state.row(a) = parts[Index(a)]->v;
-    const std::array<const Jet9*, 3> a_over_z = {&p.a_over_z.x, &p.a_over_z.y, &p.a_over_z.z};
-    for (int axis = 0; axis < 3; ++axis) {
-      line.own.row(axis) = bird.reference_depth * a_over_z[Index(axis)]->v;
-    }
-    LinearizeLine(i, k, states, reach, &scratch);
-  });
+  ForEachLine(
+      [&](std::size_t i, int k, std::size_t) { LinearizeLine(i, k, states, reach, &scratch); });
   priors_.setZero(border(), border());
   Eigen::VectorXd of_priors = Eigen::VectorXd::Zero(border());
   const int n = model_.shared();

@@ -19,7 +19,9 @@ namespace {
 
 using namespace internal;  // NOLINT: the method's own parts
 
-constexpr double kMoreThanChance = 0.6;  // probability from which on forces count
+// Probability from which on forces count: odds of the root of 10, from which on evidence is
+// "substantial" (Jeffreys, Theory of Probability, 1961).
+constexpr double kSubstantial = 0.76;
 constexpr double kUnsure = 1.4;  // errors over what the linearised posterior says, as measured
 
 // Where the common scale drifts while forces are found, it is not because forces know it: it stays
@@ -203,7 +205,7 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     batch_sum += MeanOf(test.batch_errors) * static_cast<double>(test.count);
     dynamics_sum += MeanOf(test.errors) * static_cast<double>(test.count);
     const double better = ProbabilityOfBetter(test.errors, test.batch_errors, test.odds);
-    if (!(better > kMoreThanChance)) return;
+    if (!(better > kSubstantial)) return;
     const CoupledFlock::DepthSds sds = Polish(window.model, &flock);
     KeepScale(*window.birds, window.model, &flock);
     if (sds.at.empty()) return;

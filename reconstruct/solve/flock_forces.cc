@@ -69,6 +69,28 @@ struct RuleSum {
   Eigen::Vector3d ByTaper() const { return force.leftCols<4>() * by_edge.col(1); }
 };
 
+struct RuleSums {
+  RuleSum separation, cohesion, alignment;
+
+  void Finish(const BoidsPairs<double>& rules) {
+    separation.Finish<Separation>(rules.separation.gain);
+    cohesion.Finish<Cohesion>(rules.cohesion.gain);
+    alignment.Finish<Alignment>(rules.alignment.gain);
+  }
+  // After it: of a neighbour with these weights.
+  ByOffset ByOne(const Offset& offset, const Weight& near, const Weight& seen) const {
+    const auto& [dx, dv] = offset;
+    ByOffset by{.x = separation.by_value() * near.value + cohesion.by_value() * seen.value,
+                .v = alignment.by_value() * seen.value};
+    if (near.by_square != 0) by.across += 2 * near.by_square * separation.ByWeight(dx);
+    if (seen.by_square != 0) {
+      by.across += 2 * seen.by_square * (cohesion.ByWeight(dx) + alignment.ByWeight(dv));
+    }
+    if (by.on_edge()) by.along = {dx.x, dx.y, dx.z};
+    return by;
+  }
+};
+
 template <typename T>
 struct SelfParameters {
   T log_speed, cruise, drive, level, goal, range;
@@ -161,13 +183,11 @@ Vec3d PairForce::operator()(std::span<const Offset> offsets, ByOffset* by_offset
                             PairUnknownsMatrix* by_unknowns) {
   if (by_offsets == nullptr) {
     BoidsPairs<double>::Sums sums;
-    for (const Offset& o : offsets) {
-      const double square = Dot(o.dx, o.dx), seen = seen_.ValueAt(square);
-      sums += {{o.dx, near_.ValueAt(square)}, {o.dx, seen}, {o.dv, seen}};
-    }
-    return rules_.Finish(sums);
+    for (const Offset& o : offsets) sums += SharesOf(o);
+    return ForceOf(sums);
   }
-  RuleSum separation, cohesion, alignment;
+  RuleSums rules;
+  auto& [separation, cohesion, alignment] = rules;
   weights_.clear();
   for (const Offset& o : offsets) {
     const double square = Dot(o.dx, o.dx);
@@ -177,20 +197,9 @@ Vec3d PairForce::operator()(std::span<const Offset> offsets, ByOffset* by_offset
     cohesion.Add(o.dx, seen);
     alignment.Add(o.dv, seen);
   }
-  separation.Finish<Separation>(rules_.separation.gain);
-  cohesion.Finish<Cohesion>(rules_.cohesion.gain);
-  alignment.Finish<Alignment>(rules_.alignment.gain);
+  rules.Finish(rules_);
   for (std::size_t j = 0; j < offsets.size(); ++j) {
-    const auto& [near, seen] = weights_[j];
-    const auto& [dx, dv] = offsets[j];
-    ByOffset& by = by_offsets[j];
-    by = {.x = separation.by_value() * near.value + cohesion.by_value() * seen.value,
-          .v = alignment.by_value() * seen.value};
-    if (near.by_square != 0) by.across += 2 * near.by_square * separation.ByWeight(dx);
-    if (seen.by_square != 0) {
-      by.across += 2 * seen.by_square * (cohesion.ByWeight(dx) + alignment.ByWeight(dv));
-    }
-    if (by.on_edge()) by.along = {dx.x, dx.y, dx.z};
+    by_offsets[j] = rules.ByOne(offsets[j], weights_[j][0], weights_[j][1]);
   }
   by_unknowns->col(kLogDs) = rules_.separation.radius * separation.ByRadius();
   by_unknowns->col(kLogDv) = rules_.cohesion.radius * (cohesion.ByRadius() + alignment.ByRadius());
@@ -200,6 +209,21 @@ Vec3d PairForce::operator()(std::span<const Offset> offsets, ByOffset* by_offset
   by_unknowns->col(kLogAlphaC) = cohesion.force.col(4);
   by_unknowns->col(kLogAlphaA) = alignment.force.col(4);
   return rules_.Finish({separation.sum, cohesion.sum, alignment.sum});
+}
+
+BoidsPairs<double>::Shares PairForce::SharesOf(const Offset& offset) const {
+  const double square = Dot(offset.dx, offset.dx), seen = seen_.ValueAt(square);
+  return {{offset.dx, near_.ValueAt(square)}, {offset.dx, seen}, {offset.dv, seen}};
+}
+
+ByOffset PairForce::ByOne(const Sums& sums, const Offset& offset) const {
+  RuleSums rules;
+  rules.separation.sum = sums.separation;
+  rules.cohesion.sum = sums.cohesion;
+  rules.alignment.sum = sums.alignment;
+  rules.Finish(rules_);
+  const double square = Dot(offset.dx, offset.dx);
+  return rules.ByOne(offset, near_.At(square), seen_.At(square));
 }
 
 Vec3d SelfForce(const FlockForces& forces, double log_speed, double time, const Vec3d& x,

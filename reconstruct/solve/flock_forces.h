@@ -105,6 +105,13 @@ class PairForce {
   Vec3d operator()(std::span<const Offset> offsets, ByOffset* by_offsets,
                    PairUnknownsMatrix* by_unknowns);
 
+  // The same in parts: what one neighbour adds, the force of a sum, and its derivatives by one that
+  // is in the sum.
+  using Sums = BoidsPairs<double>::Sums;
+  BoidsPairs<double>::Shares SharesOf(const Offset& offset) const;
+  Vec3d ForceOf(const Sums& sums) const { return rules_.Finish(sums); }
+  ByOffset ByOne(const Sums& sums, const Offset& offset) const;
+
  private:
   BoidsPairs<double> rules_;
   WeightWindow near_, seen_;

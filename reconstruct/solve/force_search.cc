@@ -6,21 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include "reconstruct/solve/depth_moves.h"
 
 namespace flocklift::internal {
 namespace {
 
 constexpr int kIterations = 6;  // of one round, at most
 constexpr int kAnnealIterations = 10;
+constexpr int kSweeps = 2;  // through all animals, at most
+// A sweep takes time with the square of the animals, the rest of the search as they are.
+constexpr std::size_t kFewToMove = 80;
 constexpr Effort kRough{.enough = 0.5, .step = {.share = 3e-2, .most = 60}};
-
-void Finish(const CoupledFlock& coupled, FollowedFlock* flock) {
-  double accelerations = 0;
-  for (const Bird& bird : flock->birds) accelerations += 3.0 * bird.knots;
-  flock->forces = coupled.forces.unknowns;
-  flock->noise = coupled.noise;
-  flock->improbable = coupled.Cost() + accelerations * std::log(coupled.noise.sd);
-}
 
 // Forces and paths from where they are, with the noise that they leave from round to
 // round, at first as much as the batch method's accelerations.
@@ -36,7 +34,7 @@ void FollowFitted(const DynamicsOptions& options, const BatchModel& model, Follo
         std::max(options.noise_sd, std::clamp(coupled.EstimateNoise(), 0.5 * sd, 1.5 * sd));
   }
   coupled.Minimize(kIterations);
-  Finish(coupled, flock);
+  flock->Take(coupled);
 }
 
 // Moves depths by `share` of the way to the flock's mean at every knot, and speeds to its own.
@@ -94,7 +92,7 @@ void FollowAnnealed(const DynamicsOptions& options, const BatchModel& model, dou
     }
   }
   coupled.Minimize(kAnnealIterations);
-  Finish(coupled, flock);
+  flock->Take(coupled);
 }
 
 // How far the depths of two solutions are apart after one common scale, by animal: halfway to what
@@ -122,23 +120,13 @@ std::vector<double> Apart(const std::vector<Bird>& a, const std::vector<Bird>& b
   return apart;
 }
 
-CoupledFlock Settled(const BatchModel& model, FollowedFlock* flock) {
-  CoupledFlock coupled(model, &flock->birds, &flock->shared);
-  coupled.forces.unknowns = flock->forces;
-  coupled.noise = flock->noise;
-  coupled.Relinearize();
-  coupled.Minimize(kIterations);
-  flock->forces = coupled.forces.unknowns;
-  return coupled;
-}
-
 // Annealed starts: how far animals are drawn together. Without sizes the batch solution hardly
-// knows who is in front. A start takes longer the more neighbours there are, so that large flocks
+// knows who is in front; a start takes longer the more neighbours there are, so that large flocks
 // have time for one.
 std::vector<double> AnnealedStarts(bool sizes, std::size_t animals) {
   constexpr std::size_t kFew = 30;
-  if (animals > kFew) return {sizes ? 0.5 : 1};
-  return sizes ? std::vector<double>{0.5, 0, 0.25} : std::vector<double>{0.5, 1};
+  if (sizes) return {0.25};
+  return animals > kFew ? std::vector<double>{1} : std::vector<double>{0.5, 1};
 }
 
 }  // namespace
@@ -155,13 +143,17 @@ FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine&
     if (next.birds.empty() || flock.improbable < next.improbable) next = std::move(flock);
   }
   best.apart = Apart(best.birds, next.birds);
+  if (best.birds.size() > kFewToMove) return best;
+  best.Settle(window.model, kAnnealIterations);
+  for (int sweep = 0; sweep < kSweeps && MoveDepths(window.model, &best) > 0; ++sweep) {
+  }
   return best;
 }
 
-void Settle(const BatchModel& model, FollowedFlock* flock) { Settled(model, flock); }
+void Settle(const BatchModel& model, FollowedFlock* flock) { flock->Settle(model, kIterations); }
 
 CoupledFlock::DepthSds Polish(const BatchModel& model, FollowedFlock* flock) {
-  return Settled(model, flock).Depths();
+  return flock->Settle(model, kIterations).Depths();
 }
 
 }  // namespace flocklift::internal

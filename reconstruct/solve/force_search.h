@@ -8,27 +8,16 @@
 //   fitted    the batch solution, with the forces that explain it best
 //   annealed  animals drawn towards the flock's mean depth, with the forces of usual birds; their
 //             noise falls below what it will be, then separation grows to what it is
-// and the most probable counts: of least cost + n log(sd of the noise), of n accelerations.
+// From the most probable of them on, animals are tried at other depths (depth_moves.h).
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_SEARCH_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_SEARCH_H_
 
-#include <Eigen/Core>
-#include <vector>
-
-#include "reconstruct/solve/coupled_flock.h"
 #include "reconstruct/solve/dynamics.h"
+#include "reconstruct/solve/followed_flock.h"
 #include "reconstruct/solve/window_solver.h"
 
 namespace flocklift::internal {
-
-struct FollowedFlock {
-  std::vector<Bird> birds;
-  Eigen::VectorXd shared, forces;
-  MarkovProcess noise;
-  double improbable = 0;      // minus log of its probability, but for a constant
-  std::vector<double> apart;  // from the next best start's, by animal [log depth]
-};
 
 FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine& window);
 

@@ -14,24 +14,10 @@
 #include "reconstruct/solve/force_search.h"
 #include "reconstruct/solve/hidden_sightings.h"
 #include "reconstruct/solve/window_solver.h"
-#include "tests/reconstruct/circling_flock.h"
+#include "tests/reconstruct/coupled_case.h"
 
 namespace flocklift {
 namespace {
-
-constexpr double kFps = 30;
-
-Knowledge Known(const FlockSpec& spec) {
-  Knowledge knowledge;
-  knowledge.speed = Uncertain{spec.speed, 0.1 * spec.speed};
-  knowledge.wingspan = Uncertain{spec.wingspan, 0.05 * spec.wingspan};
-  return knowledge;
-}
-
-Segments Seen(const FlockSpec& spec) {
-  const Camera camera = WatchingCamera();
-  return MakeSegments({}, Observe(spec, {}, CirclingFlock(spec), camera), camera, kFps);
-}
 
 TEST(HiddenSightings, HidesItsShareInPiecesBetweenSightings) {
   const Segments all = Seen({.count = 8, .frames = 240});
@@ -86,19 +72,6 @@ TEST(HiddenSightings, BetterIsAsProbableAsTheScalesOfErrorsSay) {
   EXPECT_EQ(ProbabilityOfBetter({}, {}), 0.5);
   EXPECT_NEAR(ProbabilityOfBetter({root, root}, {1, 1}, 3), 48.0 / 49, 1e-12);
   EXPECT_EQ(ProbabilityOfBetter({1, 3, 1}, {2, 1, 2}, 3), 0.75);
-}
-
-// Calls with the coupled flock of a batch solution.
-template <typename Check>
-void WithFlock(const FlockSpec& spec, const BatchOptions& options, const Check& check) {
-  int asked = 0;
-  internal::SolveWindow(options, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
-                        [&](const internal::WindowToRefine& window) {
-                          ++asked;
-                          internal::CoupledFlock flock(window.model, window.birds, window.shared);
-                          check(window, flock);
-                        });
-  EXPECT_EQ(asked, 1);
 }
 
 // Gradient of the whole coupled cost against differences, in random directions.

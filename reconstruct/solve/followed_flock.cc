@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/solve/followed_flock.h"
+
+#include <cmath>
+
+namespace flocklift::internal {
+
+CoupledFlock FollowedFlock::Coupled(const BatchModel& model) {
+  CoupledFlock coupled(model, &birds, &shared);
+  coupled.forces.unknowns = forces;
+  coupled.noise = noise;
+  coupled.Relinearize();
+  return coupled;
+}
+
+void FollowedFlock::Take(const CoupledFlock& coupled) {
+  double accelerations = 0;
+  for (const Bird& bird : birds) accelerations += 3.0 * bird.knots;
+  forces = coupled.forces.unknowns;
+  noise = coupled.noise;
+  improbable = coupled.Cost() + accelerations * std::log(noise.sd);
+}
+
+CoupledFlock FollowedFlock::Settle(const BatchModel& model, int iterations) {
+  CoupledFlock coupled = Coupled(model);
+  coupled.Minimize(iterations);
+  Take(coupled);
+  return coupled;
+}
+
+}  // namespace flocklift::internal

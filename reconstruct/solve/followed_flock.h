@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A solution for paths and forces together (coupled_flock.h), and how probable it is.
+
+#ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_FOLLOWED_FLOCK_H_
+#define FLOCKLIFT_RECONSTRUCT_SOLVE_FOLLOWED_FLOCK_H_
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "reconstruct/solve/coupled_flock.h"
+
+namespace flocklift::internal {
+
+struct FollowedFlock {
+  std::vector<Bird> birds;
+  Eigen::VectorXd shared, forces;
+  MarkovProcess noise;
+  double improbable = 0;      // minus log of its probability, but for a constant
+  std::vector<double> apart;  // from the next best start's, by animal [log depth]
+
+  // The problem from where this solution is; it moves `birds` and `shared`.
+  CoupledFlock Coupled(const BatchModel& model);
+  // What the problem has come to: forces, noise, and the least cost + n log(sd of the noise), of n
+  // accelerations.
+  void Take(const CoupledFlock& coupled);
+  // Goes on with what is known of forces and noise.
+  CoupledFlock Settle(const BatchModel& model, int iterations);
+};
+
+}  // namespace flocklift::internal
+
+#endif  // FLOCKLIFT_RECONSTRUCT_SOLVE_FOLLOWED_FLOCK_H_
