@@ -23,6 +23,7 @@ using namespace internal;  // NOLINT: the method's own parts
 // "substantial" (Jeffreys, Theory of Probability, 1961).
 constexpr double kSubstantial = 0.76;
 constexpr double kUnsure = 1.4;  // errors over what the linearised posterior says, as measured
+constexpr double kOpen = 0.7;    // of what two starts are apart, as measured
 
 // Where the common scale drifts while forces are found, it is not because forces know it: it stays
 // that of the batch solution.
@@ -79,7 +80,7 @@ struct Both {
     for (std::size_t i = 0; i < off.size(); ++i) {
       for (std::size_t k = 0; k < off[i].size(); ++k) {
         double& value = posterior.variances[i][k];
-        const double open = kUnsure * apart[i];
+        const double open = kOpen * apart[i];
         value = weight * (value + open * open + (1 - weight) * off[i][k] * off[i][k]);
       }
     }

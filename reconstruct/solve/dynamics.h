@@ -5,10 +5,10 @@
 // with their paths (force_search.h), with as much noise as they leave. They have to earn their
 // place: a part of the sightings is hidden from both, and how well each predicts these tells how
 // probable it is that forces are nearer to the truth; before, the odds are the variance of the
-// batch method's accelerations over that of what forces leave of them. Where that is more than
-// chance they count by it (Bayesian model averaging; Hoeting et al., 1999), and so far as they
-// leave depths less open than batch does: depths are w times those with forces plus 1 - w times
-// those of batch. What is hidden must last longer than an acceleration does, or smoothness alone
+// batch method's accelerations over that of what forces leave of them. Where that is substantial
+// they count by it (Bayesian model averaging; Hoeting et al., 1999), and so far as they leave
+// depths less open than batch does: depths are w times those with forces plus 1 - w times those of
+// batch. What is hidden must last longer than an acceleration does, or smoothness alone
 // predicts it as well. Small flocks have few sightings to hide: there the test goes on with others
 // hidden, until all have been (cross-validation), from depths and forces as they are known by then.
 
