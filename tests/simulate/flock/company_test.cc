@@ -26,7 +26,9 @@ std::vector<std::uint32_t> Find(std::vector<Bodies<T>> groups, T reach, int thre
   Company<T> company;
   company.Find(crowds, BoxAround<T>(crowds, &pool), reach, &pool);
   std::vector<std::uint32_t> found;
-  for (const auto& animal : company.animals()) found.push_back(animal.animal);
+  for (const auto& animals : company.found()) {
+    for (const auto& animal : animals) found.push_back(animal.animal);
+  }
   return found;
 }
 
@@ -46,8 +48,8 @@ std::set<std::uint32_t> BruteForce(const std::vector<Bodies<T>>& groups, T reach
 }
 
 template <typename T>
-void ExpectAllFound(const std::vector<Bodies<T>>& groups, T reach) {
-  const std::vector<std::uint32_t> found = Find(groups, reach, 1);
+void ExpectAllFound(const std::vector<Bodies<T>>& groups, T reach, int threads = 1) {
+  const std::vector<std::uint32_t> found = Find(groups, reach, threads);
   const std::set<std::uint32_t> some(found.begin(), found.end());
   EXPECT_EQ(some.size(), found.size());
   for (const std::uint32_t animal : BruteForce(groups, reach)) {
@@ -74,6 +76,19 @@ TEST(Company, CountsThroughCrowds) {
                          AsBodies<float>(RandomFlock("", 0, {}, 8)),
                          AsBodies<float>(RandomFlock("", 801, {4, 4, 4}, 9))},
                         0.1F);
+}
+
+// Pairs of which each is another thread's, in one cell or in two.
+TEST(Company, IsFoundAcrossShares) {
+  NamedFlock flock = RandomFlock("", 6000, {90, 90, 90}, 13);
+  for (std::size_t k = 0; k < 100; ++k) {
+    const double away = 0.0009 * static_cast<double>(k);
+    flock.position[5000 + k] = flock.position[k] + Vec3d{away, 0, 0};
+  }
+  for (const int threads : {2, 3}) {
+    ExpectAllFound<float>({AsBodies<float>(flock)}, 0.1F, threads);
+    ExpectAllFound<double>({AsBodies<double>(flock)}, 0.1, threads);
+  }
 }
 
 TEST(Company, IsNotSomebodyFarAway) {
