@@ -20,7 +20,8 @@ constexpr std::uint32_t kLeastBits = 512;
 constexpr double kWidest = 1e6;  // cells; a flock wider than that is numbered without order
 constexpr std::size_t kLeastShare = 2048;  // animals, below which no thread has bits of its own
 constexpr std::size_t kMostShares = 16;
-constexpr std::size_t kBlock = 8;  // words that are joined at once
+constexpr std::size_t kManyAnimals = std::size_t{1} << 16U;  // whose bits fill part of a large page
+constexpr std::size_t kBlock = 8;                            // words that are joined at once
 constexpr std::uint32_t kHashY = 0x9E3779B1U, kHashZ = 0x85EBCA77U;  // odd
 
 template <typename T>
@@ -38,10 +39,10 @@ std::uint32_t Floor(T u) {
   return static_cast<std::uint32_t>(cut - (static_cast<T>(cut) > kept ? 1 : 0));
 }
 
-const std::uint8_t* Bytes(const std::vector<std::uint64_t>& words) {
+const std::uint8_t* Bytes(const std::pmr::vector<std::uint64_t>& words) {
   return reinterpret_cast<const std::uint8_t*>(words.data());
 }
-std::uint8_t* Bytes(std::vector<std::uint64_t>* words) {
+std::uint8_t* Bytes(std::pmr::vector<std::uint64_t>* words) {
   return reinterpret_cast<std::uint8_t*>(words->data());
 }
 
@@ -158,13 +159,15 @@ void Company<T>::Join(std::size_t share) {
   shared.clear();
   joined.resize(bits_[0].words.size());
   const std::uint64_t* one = bits_[0].words.data();
-  for (std::size_t k = 1; k < bits_.size(); ++k) {
+  for (std::size_t k = 1; k < shared_.size(); ++k) {
     for (std::size_t word = 0; word < joined.size() - 1; word += kBlock) {
       JoinBlock(word, one, bits_[k].words.data(), joined.data(), &shared);
     }
     one = joined.data();
   }
-  for (const Bits& of : bits_) shared.insert(shared.end(), of.shared.begin(), of.shared.end());
+  for (std::size_t k = 0; k < shared_.size(); ++k) {
+    shared.insert(shared.end(), bits_[k].shared.begin(), bits_[k].shared.end());
+  }
 }
 
 template <typename T>
@@ -230,8 +233,12 @@ void Company<T>::Find(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, 
   NumberLattice(box, reach, total);
   const std::size_t threads = std::min(kMostShares, static_cast<std::size_t>(pool->threads()));
   const std::size_t shares = std::clamp<std::size_t>(total / kLeastShare, 1, threads);
-  bits_.resize(shares);
-  joined_.resize(shares);
+  std::pmr::memory_resource* const memory =
+      total >= kManyAnimals ? &memory_ : std::pmr::get_default_resource();
+  while (bits_.size() < shares) {
+    bits_.emplace_back(memory);
+    joined_.emplace_back(memory);
+  }
   shared_.resize(shares);
   found_.resize(shares);
   const auto for_each_share = [&](const auto& fn) {

@@ -16,9 +16,11 @@
 #define FLOCKLIFT_SIMULATE_FLOCK_COMPANY_H_
 
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
+#include "simulate/core/large_pages.h"
 #include "simulate/core/parallel_for.h"
 #include "simulate/flock/crowd.h"
 
@@ -47,8 +49,9 @@ class Company {
   static double Density(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, T reach);
 
  private:
-  using Words = std::vector<std::uint64_t>;  // of bits; the first byte follows again
+  using Words = std::pmr::vector<std::uint64_t>;  // of bits; the first byte follows again
   struct Bits {
+    explicit Bits(std::pmr::memory_resource* memory) : words(memory) {}
     Words words;
     std::vector<std::uint32_t> shared;  // those that were set already
   };
@@ -69,6 +72,7 @@ class Company {
   T per_cell_ = 0;
   std::uint32_t across_y_ = 0, across_z_ = 0;
   std::uint32_t mask_ = 0;  // of the bit of a cell
+  LargePages memory_;       // of many bits
   std::vector<Bits> bits_;  // these and the others by share of the animals
   std::vector<Words> joined_;
   std::vector<std::vector<std::uint32_t>> shared_;  // in them
