@@ -13,9 +13,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -51,57 +52,51 @@ class ThreadPool {
       }
       return;
     }
-    const std::int64_t chunks = (end - begin + grain - 1) / grain;
-    const int shares = threads();
-    const auto begin_of = [&](int share) { return chunks * share / shares; };
-    for (int k = 0; k < shares; ++k) next_[static_cast<std::size_t>(k)].chunk = begin_of(k);
-    std::atomic<std::int64_t> failed{chunks};
-    std::exception_ptr error;
-    std::mutex error_mutex;
-    Run([&](int thread) {
-      for (int k = 0; k < shares; ++k) {
-        const int share = (thread + k) % shares;
-        auto& next = next_[static_cast<std::size_t>(share)].chunk;
-        for (std::int64_t chunk; (chunk = next.fetch_add(1)) < begin_of(share + 1);) {
-          if (chunk > failed) continue;
-          const std::int64_t first = begin + chunk * grain;
-          try {
-            fn(first, std::min(first + grain, end));
-          } catch (...) {
-            const std::lock_guard lock(error_mutex);
-            if (chunk < failed) {
-              failed = chunk;
-              error = std::current_exception();
-            }
-          }
-        }
-      }
-    });
-    if (error) std::rethrow_exception(error);
+    Run({begin, end, grain, &fn, [](const void* of, std::int64_t first, std::int64_t last) {
+           (*static_cast<const Function*>(of))(first, last);
+         }});
   }
 
  private:
-  struct alignas(64) Next {  // a cache line each
-    std::atomic<std::int64_t> chunk{0};
+  struct Loop {
+    std::int64_t begin, end, grain;
+    const void* fn;
+    void (*call)(const void* fn, std::int64_t first, std::int64_t last);
   };
-
+  // What threads tell each other lies on few cache lines: each that another core has written is
+  // waited for, longer than short loops take.
+  struct alignas(64) Call {
+    std::atomic<std::uint32_t> number{0};  // of the loop, odd; even once nobody may come any more
+    Loop loop;
+  };
+  struct alignas(64) Share {                // of a thread
+    std::atomic<std::uint64_t> taken{0};    // the loop's number, then how many of its chunks
+    std::atomic<std::uint32_t> visited{0};  // number of the loop that the thread is in; then 1 more
+  };
+  struct alignas(64) Failure {
+    std::atomic<std::int64_t> chunk{kNone};
+    std::exception_ptr error;
+    std::mutex mutex;
+    static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+  };
   class Cores;
 
-  // Calls job(thread) on this thread, and on others that come before it is done; waits for these. A
+  // Does the loop on this thread, and on others that come before it is done; waits for these. A
   // thread that the system keeps from running, for somebody else or because it sleeps, is not
   // waited for: its share is the others' then.
-  void Run(std::function<void(int)> job);
-  void Wake();
-  bool Enter();
-  void Work(int thread);
+  void Run(const Loop& loop);
+  // The chunks of the thread's own share that nobody has taken, then of the others'.
+  void Work(std::size_t thread, const Loop& loop, std::uint32_t number);
+  bool Take(std::size_t share, std::uint32_t number, std::int64_t count, std::int64_t* chunk);
+  void Do(const Loop& loop, std::int64_t chunk);
+  void Serve(std::size_t thread);
 
   std::vector<std::thread> workers_;
-  std::function<void(int)> job_;  // one loop's work, by thread
-  std::vector<Next> next_;        // of each thread's share
   std::unique_ptr<Cores> cores_;
-  std::atomic<std::uint32_t> generation_{0};
-  std::atomic<std::uint32_t> inside_{0};  // workers in the loop, and whether others may enter
   std::atomic<bool> stop_{false};
+  Call call_;
+  std::vector<Share> shares_;
+  Failure failure_;
 };
 
 // One loop by itself, on threads of its own (0 or less: all that the machine has).

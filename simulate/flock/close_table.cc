@@ -12,47 +12,50 @@
 namespace flocklift {
 namespace {
 
-constexpr std::size_t kBucketsPerAnimal = 4;
+constexpr std::size_t kBucketsPerAnimal = 1;
 constexpr std::size_t kLeastBuckets = 64;
 constexpr std::size_t kPadding = 16;
-constexpr std::int64_t kGrain = kCrowdGrain / 4;  // animals a chunk of work
+constexpr std::int64_t kGrain = 128;  // animals a chunk of work
 
 }  // namespace
 
 template <typename T>
-void CloseTable<T>::Sort(const Company<T>& company, std::span<const Crowd<T>> crowds) {
-  const std::vector<typename Company<T>::Animal>& animals = company.animals();
-  const std::size_t n = animals.size();
+void CloseTable<T>::Sort(const Company<T>& company) {
+  using Animals = std::vector<typename Company<T>::Animal>;
+  const std::vector<Animals>& found = company.found();
+  std::size_t n = 0;
+  for (const Animals& animals : found) n += animals.size();
   const std::size_t buckets = std::bit_ceil(std::max(kBucketsPerAnimal * n, kLeastBuckets));
   mask_ = static_cast<std::uint32_t>(buckets - 1);
   across_y_ = company.across_y();
   across_z_ = company.across_z();
-  start_.assign(buckets + 2, 0);
-  rank_.resize(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    rank_[k] = start_[company.CellOf(animals[k].animal) & mask_]++;
-  }
-  std::uint32_t sum = 0;
-  for (std::uint32_t& start : start_) {
-    const std::uint32_t count = start;
-    start = sum;
-    sum += count;
-  }
+  start_.resize(buckets + 2);
   for (std::vector<T>* column : {&x_, &y_, &z_, &room_}) column->resize(n + kPadding);
   animal_.resize(n);
   low_.resize(n);
-  std::size_t crowd = 0, before = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::uint32_t animal = animals[k].animal;
-    while (animal - before >= crowds[crowd].size) before += crowds[crowd++].size;
-    const std::size_t at = animal - before;
-    const std::uint32_t to = start_[company.CellOf(animal) & mask_] + rank_[k];
-    x_[to] = crowds[crowd].x[at];
-    y_[to] = crowds[crowd].y[at];
-    z_[to] = crowds[crowd].z[at];
-    room_[to] = crowds[crowd].RoomOf(at);
-    animal_[to] = animal;
-    low_[to] = animals[k].lowest;
+
+  // On one thread: what two fill by turns lies on the same cache lines.
+  next_.assign(buckets, 0);
+  for (const Animals& animals : found) {
+    for (const auto& animal : animals) ++next_[animal.cell & mask_];
+  }
+  std::uint32_t sum = 0;
+  for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
+    const std::uint32_t count = next_[bucket];
+    start_[bucket] = next_[bucket] = sum;
+    sum += count;
+  }
+  start_[buckets] = start_[buckets + 1] = sum;
+  for (const Animals& animals : found) {
+    for (const auto& animal : animals) {
+      const std::uint32_t to = next_[animal.cell & mask_]++;
+      x_[to] = animal.x;
+      y_[to] = animal.y;
+      z_[to] = animal.z;
+      room_[to] = animal.room;
+      animal_[to] = animal.animal;
+      low_[to] = animal.lowest;
+    }
   }
 }
 

@@ -13,7 +13,6 @@
 #define FLOCKLIFT_SIMULATE_FLOCK_CLOSE_TABLE_H_
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "simulate/core/parallel_for.h"
@@ -25,8 +24,8 @@ namespace flocklift {
 template <typename T>
 class CloseTable {
  public:
-  // Sorts those with company; the crowds are those that it was found in.
-  void Sort(const Company<T>& company, std::span<const Crowd<T>> crowds);
+  // Sorts those with company.
+  void Sort(const Company<T>& company);
   // The pairs nearer than the sum of their rooms, in an order that depends on the positions alone.
   void FindPairs(ThreadPool* pool);
 
@@ -39,7 +38,7 @@ class CloseTable {
   void AppendPairs(std::uint32_t first, std::vector<ClosePair<T>>* pairs) const;
 
   std::uint32_t mask_ = 0, across_y_ = 0, across_z_ = 0;
-  std::vector<std::uint32_t> rank_;              // by animal with company, within its bucket
+  std::vector<std::uint32_t> next_;              // place in each bucket, while sorting
   std::vector<std::uint32_t> start_;             // of each bucket's run; at the end twice the end
   std::vector<T> x_, y_, z_, room_;              // sorted, padded
   std::vector<std::uint32_t> animal_, low_;      // sorted: who it is, the lowest of its eight cells

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 
 #include "simulate/flock/kernels/swarm_kernel.h"
@@ -17,6 +18,10 @@ constexpr double kCellPerReach = 2.1;  // twice, and round-off
 constexpr std::size_t kBitsPerAnimal = 64;
 constexpr std::uint32_t kLeastBits = 512;
 constexpr double kWidest = 1e6;  // cells; a flock wider than that is numbered without order
+constexpr std::size_t kLeastShare = 2048;  // animals, below which no thread has bits of its own
+constexpr std::size_t kMostShares = 16;
+constexpr std::size_t kManyAnimals = std::size_t{1} << 16U;  // whose bits fill part of a large page
+constexpr std::size_t kBlock = 8;                            // words that are joined at once
 constexpr std::uint32_t kHashY = 0x9E3779B1U, kHashZ = 0x85EBCA77U;  // odd
 
 template <typename T>
@@ -32,6 +37,47 @@ std::uint32_t Floor(T u) {
   const T kept = std::min(far, std::max(-far, u));
   const auto cut = static_cast<std::int32_t>(kept);
   return static_cast<std::uint32_t>(cut - (static_cast<T>(cut) > kept ? 1 : 0));
+}
+
+const std::uint8_t* Bytes(const std::pmr::vector<std::uint64_t>& words) {
+  return reinterpret_cast<const std::uint8_t*>(words.data());
+}
+std::uint8_t* Bytes(std::pmr::vector<std::uint64_t>* words) {
+  return reinterpret_cast<std::uint8_t*>(words->data());
+}
+
+// A block of words to which the bits of others are added; those that both have go to `shared` by
+// number.
+void JoinBlock(std::size_t first, const std::uint64_t* one, const std::uint64_t* other,
+               std::uint64_t* to, std::vector<std::uint32_t>* shared) {
+  std::uint64_t both[kBlock], any = 0;
+  for (std::size_t k = 0; k < kBlock; ++k) {
+    both[k] = one[first + k] & other[first + k];
+    any |= both[k];
+    to[first + k] = one[first + k] | other[first + k];
+  }
+  for (std::size_t k = 0; k < kBlock && any != 0; ++k) {
+    for (std::uint64_t left = both[k]; left != 0; left &= left - 1) {
+      shared->push_back(static_cast<std::uint32_t>(64 * (first + k)) +
+                        static_cast<std::uint32_t>(std::countr_zero(left)));
+    }
+  }
+}
+
+// fn(crowd, first, last, before) for pieces of at most kCrowdGrain of the animals first .. last -
+// 1, counted through all crowds; `before` come before the crowd.
+template <typename T, typename Function>
+void ForEachPiece(std::span<const Crowd<T>> crowds, std::size_t first, std::size_t last,
+                  const Function& fn) {
+  std::size_t before = 0;
+  for (const Crowd<T>& crowd : crowds) {
+    const std::size_t end = std::clamp(last, before, before + crowd.size) - before;
+    for (std::size_t k = std::clamp(first, before, before + crowd.size) - before; k < end;
+         k += kCrowdGrain) {
+      fn(crowd, k, std::min<std::size_t>(k + kCrowdGrain, end), before);
+    }
+    before += crowd.size;
+  }
 }
 
 }  // namespace
@@ -55,16 +101,17 @@ std::uint32_t Company<T>::Cell(T x, T y, T z, T shift) const {
 }
 
 template <typename T>
-void Company<T>::Number(const Crowd<T>& crowd, std::int64_t first, std::int64_t last,
+void Company<T>::Number(const Crowd<T>& crowd, std::size_t first, std::size_t last,
                         std::uint32_t* to) const {
-  std::int64_t k = first;
+  std::size_t k = first;
   if constexpr (std::is_same_v<T, float>) {
-    k += (last - first) / 8 * 8;
-    FastestSwarmKernel().cells(
-        {crowd.x, crowd.y, crowd.z, per_cell_, T(0), across_y_, across_z_, to},
-        static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(k));
+    const std::size_t whole = (last - first) / 8 * 8;
+    FastestSwarmKernel().cells({crowd.x + first, crowd.y + first, crowd.z + first, per_cell_, T(0),
+                                across_y_, across_z_, to},
+                               0, static_cast<std::uint32_t>(whole));
+    k += whole;
   }
-  for (; k < last; ++k) to[k] = Cell(crowd.x[k], crowd.y[k], crowd.z[k]);
+  for (; k < last; ++k) to[k - first] = Cell(crowd.x[k], crowd.y[k], crowd.z[k]);
 }
 
 template <typename T>
@@ -87,69 +134,95 @@ void Company<T>::NumberLattice(const CrowdBox<T>& box, T reach, std::size_t anim
 }
 
 template <typename T>
-void Company<T>::SetBits(ThreadPool* pool) {
-  const std::uint32_t size = mask_ + 1;
-  bits_.resize(size / 8 + 4);
-  // Every thread looks at all animals and sets the bits of its part.
-  const std::uint32_t parts = std::min(64U, std::bit_floor(static_cast<unsigned>(pool->threads())));
-  const int shift = std::countr_zero(size / parts);
-  shared_.resize(parts);
-  pool->For(0, parts, 1, [&](std::int64_t part, std::int64_t) {
-    std::uint8_t* const bits = bits_.data();
-    std::vector<std::uint32_t>& shared = shared_[static_cast<std::size_t>(part)];
-    shared.clear();
-    std::fill_n(bits + (part << shift) / 8, size / parts / 8, std::uint8_t{0});
-    for (const std::uint32_t cell : cell_) {
-      const std::uint32_t bit = cell & (size - 1);
-      if (parts > 1 && bit >> shift != static_cast<std::uint32_t>(part)) continue;
-      const unsigned before = bits[bit / 8], one = 1U << bit % 8;
-      bits[bit / 8] = static_cast<std::uint8_t>(before | one);
-      if ((before & one) != 0) shared.push_back(bit);
-    }
-  });
-  for (const auto& shared : shared_) {
-    for (const std::uint32_t bit : shared) {
-      for (const std::uint32_t next : {(bit - 1) & mask_, (bit + 1) & mask_}) {
-        bits_[next / 8] |= static_cast<std::uint8_t>(1U << next % 8);
-      }
-    }
-  }
-  bits_[size / 8] = bits_[0];
+void Company<T>::SetBits(std::span<const Crowd<T>> crowds, std::size_t first, std::size_t last,
+                         Bits* own) const {
+  own->words.assign(static_cast<std::size_t>(mask_) / 64 + 2, 0);
+  own->shared.clear();
+  std::uint8_t* const bits = Bytes(&own->words);
+  ForEachPiece(crowds, first, last,
+               [&](const Crowd<T>& crowd, std::size_t begin, std::size_t end, std::size_t) {
+                 std::uint32_t cell[kCrowdGrain];
+                 Number(crowd, begin, end, cell);
+                 for (std::size_t n = 0; n < end - begin; ++n) {
+                   const std::uint32_t bit = cell[n] & mask_;
+                   const unsigned had = bits[bit / 8], one = 1U << bit % 8;
+                   bits[bit / 8] = static_cast<std::uint8_t>(had | one);
+                   if ((had & one) != 0) own->shared.push_back(bit);
+                 }
+               });
 }
 
-// Those of the animals first .. last - 1 that see a second bit; `before` come before the crowd.
 template <typename T>
-void Company<T>::LookUp(const Crowd<T>& crowd, std::int64_t first, std::int64_t last,
-                        std::size_t before, std::vector<Animal>* found) const {
-  std::uint32_t company[kCrowdGrain], lowest[kCrowdGrain];
-  std::uint32_t count = 0;
-  std::int64_t k = first;
-  if constexpr (std::is_same_v<T, float>) {
-    const auto whole = static_cast<std::uint32_t>((last - first) / 8 * 8);
-    const CompanyJob job{{crowd.x + first, crowd.y + first, crowd.z + first, per_cell_, T(0.5),
-                          across_y_, across_z_, nullptr},
-                         bits_.data(),
-                         mask_};
-    count = FastestSwarmKernel().company(job, 0, whole, company, lowest);
-    k += whole;
-  }
-  const auto bit = [this](std::uint32_t cell) {
-    const std::uint32_t at = cell & mask_;
-    return bits_[at / 8] >> at % 8 & 1;
-  };
-  for (; k < last; ++k) {
-    const std::uint32_t at = Cell(crowd.x[k], crowd.y[k], crowd.z[k], T(0.5));
-    int seen = 0;
-    for (const std::uint32_t across : {0U, across_y_, across_z_, across_y_ + across_z_}) {
-      seen += bit(at + across) + bit(at + across + 1);
+void Company<T>::Join(std::size_t share) {
+  std::vector<std::uint32_t>& shared = shared_[share];
+  Words& joined = joined_[share];
+  shared.clear();
+  joined.resize(bits_[0].words.size());
+  const std::uint64_t* one = bits_[0].words.data();
+  for (std::size_t k = 1; k < shared_.size(); ++k) {
+    for (std::size_t word = 0; word < joined.size() - 1; word += kBlock) {
+      JoinBlock(word, one, bits_[k].words.data(), joined.data(), &shared);
     }
-    company[count] = static_cast<std::uint32_t>(k - first);
-    lowest[count] = at;
-    count += seen > 1 ? 1 : 0;
+    one = joined.data();
   }
-  const auto start = static_cast<std::uint32_t>(before + static_cast<std::size_t>(first));
+  for (std::size_t k = 0; k < shared_.size(); ++k) {
+    shared.insert(shared.end(), bits_[k].shared.begin(), bits_[k].shared.end());
+  }
+}
+
+template <typename T>
+void Company<T>::SetNeighbours(const std::vector<std::uint32_t>& shared, Words* words) const {
+  std::uint8_t* const bits = Bytes(words);
+  for (const std::uint32_t bit : shared) {
+    for (const std::uint32_t next : {(bit - 1) & mask_, (bit + 1) & mask_}) {
+      bits[next / 8] |= static_cast<std::uint8_t>(1U << next % 8);
+    }
+  }
+  bits[(static_cast<std::size_t>(mask_) + 1) / 8] = bits[0];
+}
+
+// Those of the animals first .. last - 1 that see a second bit.
+template <typename T>
+void Company<T>::LookUp(std::span<const Crowd<T>> crowds, std::size_t first, std::size_t last,
+                        const Words& words, std::vector<Animal>* found) const {
+  const std::uint8_t* const bits = Bytes(words);
+  const auto bit = [&](std::uint32_t cell) {
+    const std::uint32_t at = cell & mask_;
+    return bits[at / 8] >> at % 8 & 1;
+  };
   found->clear();
-  for (std::uint32_t n = 0; n < count; ++n) found->push_back({start + company[n], lowest[n]});
+  ForEachPiece(
+      crowds, first, last,
+      [&](const Crowd<T>& crowd, std::size_t begin, std::size_t end, std::size_t before) {
+        std::uint32_t company[kCrowdGrain], lowest[kCrowdGrain];
+        std::uint32_t count = 0;
+        std::size_t k = begin;
+        if constexpr (std::is_same_v<T, float>) {
+          const auto whole = static_cast<std::uint32_t>((end - begin) / 8 * 8);
+          const CompanyJob job{{crowd.x + begin, crowd.y + begin, crowd.z + begin, per_cell_,
+                                T(0.5), across_y_, across_z_, nullptr},
+                               bits,
+                               mask_};
+          count = FastestSwarmKernel().company(job, 0, whole, company, lowest);
+          k += whole;
+        }
+        for (; k < end; ++k) {
+          const std::uint32_t at = Cell(crowd.x[k], crowd.y[k], crowd.z[k], T(0.5));
+          int seen = 0;
+          for (const std::uint32_t across : {0U, across_y_, across_z_, across_y_ + across_z_}) {
+            seen += bit(at + across) + bit(at + across + 1);
+          }
+          company[count] = static_cast<std::uint32_t>(k - begin);
+          lowest[count] = at;
+          count += seen > 1 ? 1 : 0;
+        }
+        for (std::uint32_t n = 0; n < count; ++n) {
+          const std::size_t at = begin + company[n];
+          const T x = crowd.x[at], y = crowd.y[at], z = crowd.z[at];
+          found->push_back({static_cast<std::uint32_t>(before + at), Cell(x, y, z), lowest[n], x, y,
+                            z, crowd.RoomOf(at)});
+        }
+      });
 }
 
 template <typename T>
@@ -158,28 +231,34 @@ void Company<T>::Find(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, 
   std::size_t total = 0;
   for (const Crowd<T>& crowd : crowds) total += crowd.size;
   NumberLattice(box, reach, total);
-  cell_.resize(total);
-  std::size_t before = 0;
-  for (const Crowd<T>& crowd : crowds) {
-    pool->For(0, static_cast<std::int64_t>(crowd.size), kCrowdGrain,
-              [&](std::int64_t first, std::int64_t last) {
-                Number(crowd, first, last, cell_.data() + before);
-              });
-    before += crowd.size;
+  const std::size_t threads = std::min(kMostShares, static_cast<std::size_t>(pool->threads()));
+  const std::size_t shares = std::clamp<std::size_t>(total / kLeastShare, 1, threads);
+  std::pmr::memory_resource* const memory =
+      total >= kManyAnimals ? &memory_ : std::pmr::get_default_resource();
+  while (bits_.size() < shares) {
+    bits_.emplace_back(memory);
+    joined_.emplace_back(memory);
   }
-  SetBits(pool);
-
-  animals_.clear();
-  before = 0;
-  for (const Crowd<T>& crowd : crowds) {
-    found_.resize((crowd.size + kCrowdGrain - 1) / kCrowdGrain);
-    pool->For(0, static_cast<std::int64_t>(crowd.size), kCrowdGrain,
-              [&](std::int64_t first, std::int64_t last) {
-                LookUp(crowd, first, last, before, &found_[first / kCrowdGrain]);
-              });
-    for (const auto& found : found_) animals_.insert(animals_.end(), found.begin(), found.end());
-    before += crowd.size;
-  }
+  shared_.resize(shares);
+  found_.resize(shares);
+  const auto for_each_share = [&](const auto& fn) {
+    pool->For(0, static_cast<std::int64_t>(shares), 1, [&](std::int64_t share, std::int64_t) {
+      const auto k = static_cast<std::size_t>(share);
+      fn(k, total * k / shares, total * (k + 1) / shares);
+    });
+  };
+  for_each_share([&](std::size_t share, std::size_t first, std::size_t last) {
+    SetBits(crowds, first, last, &bits_[share]);
+  });
+  for_each_share([&](std::size_t share, std::size_t first, std::size_t last) {
+    Words* words = &bits_[0].words;
+    if (shares > 1) {
+      Join(share);
+      words = &joined_[share];
+    }
+    SetNeighbours(shares > 1 ? shared_[share] : bits_[0].shared, words);
+    LookUp(crowds, first, last, *words, &found_[share]);
+  });
 }
 
 template class Company<float>;

@@ -4,34 +4,41 @@
 #include "simulate/flock/crowd.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <vector>
+#include <xsimd/xsimd.hpp>
 
 namespace flocklift {
 namespace {
 
-constexpr std::size_t kLanes = 8;
-
-// Least and largest.
+// Least and largest, several at a time; compilers do not take it to packs by themselves.
 template <typename T>
 void Widen(const T* v, std::size_t first, std::size_t last, T* least, T* most) {
-  T low[kLanes], high[kLanes];
-  std::fill_n(low, kLanes, *least);
-  std::fill_n(high, kLanes, *most);
+  using Pack = xsimd::batch<T, xsimd::sse2>;
+  constexpr std::size_t kAtOnce = 4;  // so that they do not wait for each other
+  Pack low[kAtOnce], high[kAtOnce];
+  std::fill_n(low, kAtOnce, Pack(*least));
+  std::fill_n(high, kAtOnce, Pack(*most));
   std::size_t k = first;
-  for (; k + kLanes <= last; k += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const T value = v[k + lane];
-      low[lane] = value < low[lane] ? value : low[lane];
-      high[lane] = value > high[lane] ? value : high[lane];
+  for (; k + kAtOnce * Pack::size <= last; k += kAtOnce * Pack::size) {
+    for (std::size_t n = 0; n < kAtOnce; ++n) {
+      const Pack value = Pack::load_unaligned(v + k + n * Pack::size);
+      low[n] = xsimd::min(value, low[n]);  // the second where the first is not a number
+      high[n] = xsimd::max(value, high[n]);
     }
   }
-  for (; k < last; ++k) {
-    low[0] = v[k] < low[0] ? v[k] : low[0];
-    high[0] = v[k] > high[0] ? v[k] : high[0];
+  T lows[kAtOnce * Pack::size], highs[kAtOnce * Pack::size];
+  for (std::size_t n = 0; n < kAtOnce; ++n) {
+    low[n].store_unaligned(lows + n * Pack::size);
+    high[n].store_unaligned(highs + n * Pack::size);
   }
-  *least = *std::min_element(low, low + kLanes);
-  *most = *std::max_element(high, high + kLanes);
+  *least = *std::min_element(std::begin(lows), std::end(lows));
+  *most = *std::max_element(std::begin(highs), std::end(highs));
+  for (; k < last; ++k) {
+    *least = v[k] < *least ? v[k] : *least;
+    *most = v[k] > *most ? v[k] : *most;
+  }
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 
 namespace flocklift {
 
-inline constexpr std::int64_t kCrowdGrain = 2048;  // animals a chunk of work
+inline constexpr std::int64_t kCrowdGrain = 512;  // animals a chunk of work
 
 // Where they are, and how much room each keeps.
 template <typename T>

@@ -49,6 +49,8 @@ struct MorphScene {
 
 class FlockMorph {
  public:
+  static constexpr std::int64_t kGrain = 512;  // tetrahedra a chunk of work, a multiple of 16
+
   // `kernel` is a name of kMorphKernels; empty: the fastest there is. Throws std::invalid_argument
   // for what makes no sense.
   explicit FlockMorph(const MorphScene& scene, const std::string& kernel = {});

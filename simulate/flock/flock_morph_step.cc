@@ -14,8 +14,7 @@
 namespace flocklift {
 namespace {
 
-constexpr std::int64_t kGrain = 2048;  // tetrahedra a chunk of work, a multiple of 16
-constexpr double kNearPlace = 3;       // radii: so near its place nobody is led around anything
+constexpr double kNearPlace = 3;  // radii: so near its place nobody is led around anything
 constexpr float kFar = std::numeric_limits<float>::max();
 
 CrowdBox<float> UnionOf(const std::vector<MorphBox>& boxes) {

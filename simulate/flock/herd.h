@@ -6,7 +6,9 @@
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_HERD_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_HERD_H_
 
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -109,6 +111,35 @@ Vec3d SumOfPositions(const Bodies<T>& bodies) {
   Vec3d sum;
   for (std::size_t k = 0; k < bodies.size(); ++k) sum += ToDouble(bodies.Position(k));
   return sum;
+}
+
+// In an order that depends on nothing, in lanes so that it does not wait for itself.
+template <typename T>
+double SumOf(const T* values, std::size_t n) {
+  constexpr std::size_t kLanes = 8;
+  double lanes[kLanes] = {}, sum = 0;
+  const std::size_t whole = n - n % kLanes;
+  for (std::size_t k = 0; k < whole; k += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      lanes[lane] += static_cast<double>(values[k + lane]);
+    }
+  }
+  for (std::size_t k = whole; k < n; ++k) sum += static_cast<double>(values[k]);
+  for (const double lane : lanes) sum += lane;
+  return sum;
+}
+
+// The same at any number of threads: sums of chunks, in their order. Each thread adds what it has
+// most likely counted itself.
+template <typename T>
+double SumOfNeighbours(const Herd<T>& herd, ThreadPool* pool) {
+  const auto n = static_cast<std::int64_t>(herd.size());
+  std::vector<double> sums(static_cast<std::size_t>((n + kAgentGrain - 1) / kAgentGrain));
+  pool->For(0, n, kAgentGrain, [&](std::int64_t first, std::int64_t last) {
+    sums[static_cast<std::size_t>(first / kAgentGrain)] =
+        SumOf(herd.neighbours.data() + first, static_cast<std::size_t>(last - first));
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 }  // namespace flocklift

@@ -61,7 +61,7 @@ std::int64_t MinimumDistance<T>::Enforce(std::span<const Crowd<T>> crowds, const
     return PushApart(grid_, crowds);
   }
   company_.Find(crowds, box, reach, pool);
-  table_.Sort(company_, crowds);
+  table_.Sort(company_);
   table_.FindPairs(pool);
   return PushApart(table_, crowds);
 }

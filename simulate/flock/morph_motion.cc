@@ -126,8 +126,14 @@ class MorphMotion final : public Motion<T> {
     }
     const std::size_t first = morph_.FirstInFlight();  // those that arrive now included
     morph_.Step(pool);
-    // Tetrahedra are numbered by rank, and the herd keeps that order.
-    morph_.CopyStates(first, morph_.EndInFlight(), &herd->now);
+    // Tetrahedra are numbered by rank, and the herd keeps that order. Each thread copies what it
+    // has moved.
+    pool->For(static_cast<std::int64_t>(first - first % 16),
+              static_cast<std::int64_t>(morph_.EndInFlight()), FlockMorph::kGrain,
+              [&](std::int64_t begin, std::int64_t end) {
+                morph_.CopyStates(std::max(first, static_cast<std::size_t>(begin)),
+                                  static_cast<std::size_t>(end), &herd->now);
+              });
   }
 
   void Retune(const ModelParameters& parameters) override {

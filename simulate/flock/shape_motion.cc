@@ -88,9 +88,9 @@ class ShapeMotion final : public Motion<T> {
     const double spacing = targets_.Spacing(around.time);
     const ShapePairNumbers numbers = MakeShapePairNumbers(p_, spacing, range_);
     SumNeighbours(numbers, pool, herd);
-    AdaptRange(spacing, *herd);
+    AdaptRange(spacing, *herd, pool);
     forces_.Add(around, pool, herd);
-    TakeTargets(around.time, herd->now.agent);
+    TakeTargets(around.time, *herd, pool);
     const Vec3<T> carried = Cast<T>(targets_.Velocity(around.time));
     pool->For(0, static_cast<std::int64_t>(herd->size()), kAgentGrain,
               [&](std::int64_t first, std::int64_t last) {
@@ -136,11 +136,10 @@ class ShapeMotion final : public Motion<T> {
 
   // Towards the range at which animals have p_.neighbours on average; never less than what
   // repulsion and the spreading over the shape need.
-  void AdaptRange(double spacing, const Herd<T>& herd) {
+  void AdaptRange(double spacing, const Herd<T>& herd, ThreadPool* pool) {
     if (p_.neighbours <= 0) return;
-    double sum = 0;
-    for (std::size_t k = 0; k < herd.size(); ++k) sum += static_cast<double>(herd.neighbours[k]);
-    const double mean = std::max(sum / static_cast<double>(herd.size()), 0.1);
+    const double mean =
+        std::max(SumOfNeighbours(herd, pool) / static_cast<double>(herd.size()), 0.1);
     const double factor = std::pow(p_.neighbours / mean, kRangeGain);
     range_ *= std::clamp(factor, 1 - kRangeChange, 1 + kRangeChange);
     const double least = std::min(p_.r_att, std::max(p_.r_rep, 0.5 * spacing));
@@ -148,15 +147,16 @@ class ShapeMotion final : public Motion<T> {
   }
 
   // The samples in the order of the herd; most steps change neither.
-  void TakeTargets(double time, const std::vector<std::uint32_t>& order) {
+  void TakeTargets(double time, const Herd<T>& herd, ThreadPool* pool) {
+    const std::vector<std::uint32_t>& order = herd.now.agent;
     const std::vector<Vec3d>& target = targets_.At(time);
     if (taken_ == targets_.version() && taken_order_ == order) return;
-    for (std::size_t k = 0; k < order.size(); ++k) {
+    ForEachAnimal(herd, pool, [&](std::size_t k) {
       const Vec3<T> own = Cast<T>(target[order[k]]);
       target_x_[k] = own.x;
       target_y_[k] = own.y;
       target_z_[k] = own.z;
-    }
+    });
     taken_ = targets_.version();
     taken_order_ = order;
   }

@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -57,35 +56,6 @@ Herd<T> MakeHerd(const Swarm& swarm, std::uint64_t first_agent, bool flat) {
   herd.sorted.Resize(n);
   herd.grid.Reserve(n);
   return herd;
-}
-
-// In an order that depends on nothing, in lanes so that it does not wait for itself.
-template <typename T>
-double SumOf(const T* values, std::size_t n) {
-  constexpr std::size_t kLanes = 8;
-  double lanes[kLanes] = {}, sum = 0;
-  const std::size_t whole = n - n % kLanes;
-  for (std::size_t k = 0; k < whole; k += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      lanes[lane] += static_cast<double>(values[k + lane]);
-    }
-  }
-  for (std::size_t k = whole; k < n; ++k) sum += static_cast<double>(values[k]);
-  for (const double lane : lanes) sum += lane;
-  return sum;
-}
-
-// The same at any number of threads: sums of chunks, in their order. Each thread adds what it has
-// most likely counted itself.
-template <typename T>
-double SumOfNeighbours(const Herd<T>& herd, ThreadPool* pool) {
-  const auto n = static_cast<std::int64_t>(herd.size());
-  std::vector<double> sums(static_cast<std::size_t>((n + kAgentGrain - 1) / kAgentGrain));
-  pool->For(0, n, kAgentGrain, [&](std::int64_t first, std::int64_t last) {
-    sums[static_cast<std::size_t>(first / kAgentGrain)] =
-        SumOf(herd.neighbours.data() + first, static_cast<std::size_t>(last - first));
-  });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
 // What the model finds amiss is a fault of the scene's file, where the species comes from one.

@@ -25,6 +25,11 @@ struct Moves {
   T operator[](std::size_t k) const { return now[k] - then[k]; }
 };
 
+template <typename T>
+ExtentPack<T> PackAt(const Moves<T>& moves, std::size_t k) {
+  return flocklift::PackAt(moves.now, k) - flocklift::PackAt(moves.then, k);
+}
+
 // The bounding box of vectors.
 template <typename T>
 struct Box {

@@ -149,7 +149,7 @@ std::uint32_t FindCompany(const CompanyJob& job, std::uint32_t first, std::uint3
     const std::uint32_t y = job.cells.across_y, z = job.cells.across_z;
     const Bits eight = two(0) | two(y) << 2 | two(z) << 4 | two(y + z) << 6;
     const Bits further = eight & (eight - one);  // bits but the lowest
-    if (!xsimd::any(further != Bits(0U))) continue;
+    // Without a branch, so that bits that another core has set are waited for all at once.
     alignas(64) std::uint32_t has[Pack::size], numbers[Pack::size];
     further.store_aligned(has);
     at.store_aligned(numbers);

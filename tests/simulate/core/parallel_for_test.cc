@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -43,6 +44,41 @@ TEST(ParallelFor, ChunksDoNotDependOnTheThreads) {
   EXPECT_TRUE(expected.contains({102, 103}));
   EXPECT_EQ(chunks(2), expected);
   EXPECT_EQ(chunks(5), expected);
+}
+
+// Each loop reads what the one before has written, and some threads come to few of them.
+TEST(ThreadPool, ShortLoopsFollowEachOther) {
+  for (const int threads : {2, 3, 7}) {
+    ThreadPool pool(threads);
+    std::vector<int> now(40, 0), next(40, 0);
+    for (int loop = 0; loop < 3000; ++loop) {
+      const auto size = static_cast<std::int64_t>(1 + loop % 40);
+      pool.For(0, size, 1 + loop % 3, [&](std::int64_t first, std::int64_t last) {
+        for (std::int64_t k = first; k < last; ++k) {
+          const auto own = static_cast<std::size_t>(k);
+          next[own] = now[(own + 1) % now.size()] + 1;
+        }
+      });
+      for (std::size_t k = 0; k < static_cast<std::size_t>(size); ++k) {
+        ASSERT_EQ(next[k], now[(k + 1) % now.size()] + 1) << threads << " " << loop;
+      }
+      std::copy_n(next.begin(), size, now.begin());
+    }
+  }
+}
+
+TEST(ThreadPool, GoesOnAfterAFailure) {
+  ThreadPool pool(3);
+  for (int loop = 0; loop < 200; ++loop) {
+    EXPECT_THROW(pool.For(0, 30, 1,
+                          [](std::int64_t first, std::int64_t) {
+                            if (first == 17) throw std::runtime_error("17");
+                          }),
+                 std::runtime_error);
+    std::vector<int> hits(30, 0);
+    pool.For(0, 30, 1, [&](std::int64_t k, std::int64_t) { ++hits[static_cast<std::size_t>(k)]; });
+    EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), 30);
+  }
 }
 
 TEST(ParallelFor, TheFirstFailureIsRethrown) {

@@ -46,7 +46,7 @@ void ExpectEveryPairOnce(const NamedFlock& flock, T room) {
   Company<T> company;
   company.Find(crowds, BoxAround<T>(crowds, &pool), 2 * room, &pool);
   CloseTable<T> table;
-  table.Sort(company, crowds);
+  table.Sort(company);
   table.FindPairs(&pool);
   Pairs found;
   for (const auto& chunk : table.pairs()) {

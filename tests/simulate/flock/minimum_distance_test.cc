@@ -180,6 +180,31 @@ TEST(MinimumDistance, SameBytesAtAnyNumberOfThreads) {
   }
 }
 
+// Few in a wide box are found another way. Everybody is in contact with several, whom other threads
+// look up: what adds up in another order is rounded otherwise.
+TEST(MinimumDistance, SameBytesOfKnotsFarApart) {
+  constexpr int kKnots = 1500, kInEach = 6;
+  const NamedFlock knots = RandomFlock("", kKnots, {200, 200, 200}, 63);
+  NamedFlock flock = RandomFlock("", kKnots * kInEach + 5, {0.3, 0.3, 0.3}, 64);
+  for (std::size_t k = 0; k < flock.position.size(); ++k) {
+    flock.position[k] += knots.position[k % kKnots];
+  }
+  for (const int threads : {2, 3, 4}) {
+    std::vector<Group<float>> one = {Group<float>(flock, 0.1)}, other = one;
+    MinimumDistance<float> kept;
+    ThreadPool pool(threads);
+    for (int step = 0; step < 4; ++step) {
+      const std::int64_t touched = Enforce(&one, 1);
+      EXPECT_GT(touched, 3000);
+      const Crowd<float> crowd = other[0].AsCrowd();
+      EXPECT_EQ(kept.Enforce({&crowd, 1}, &pool), touched);
+    }
+    EXPECT_EQ(one[0].x, other[0].x) << threads;
+    EXPECT_EQ(one[0].y, other[0].y) << threads;
+    EXPECT_EQ(one[0].z, other[0].z) << threads;
+  }
+}
+
 TEST(MinimumDistance, NothingToDo) {
   std::vector<Group<float>> nobody, alone = {Group<float>(RandomFlock("", 1, {1, 1, 1}, 1), 1)},
                                     roomless = {Group<float>(RandomFlock("", 9, {0, 0, 0}, 1), 0)};

@@ -112,6 +112,8 @@ TEST(MorphMotion, SameBytesWithOneAndTwoThreads) {
     two.Step();
   }
   EXPECT_EQ(one.TetrahedraCorners(), two.TetrahedraCorners());
+  EXPECT_EQ(one.State().position, two.State().position);
+  EXPECT_EQ(one.State().velocity, two.State().velocity);
 }
 
 TEST(MorphMotion, NeedsTwoShapes) {

@@ -29,13 +29,13 @@ World BallWorld() {
   return world;
 }
 
-Swarm Insects(const ShapeParameters& p) {
+Swarm Insects(const ShapeParameters& p, int count = kCount) {
   Swarm swarm;
   swarm.species = "fly";
   swarm.model = p;
   swarm.shape = "ball";
   Rng rng(5);
-  for (int k = 0; k < kCount; ++k) {
+  for (int k = 0; k < count; ++k) {
     swarm.position.push_back({2 * rng.Normal(), 2 * rng.Normal(), 2 * rng.Normal()});
     swarm.velocity.push_back({0.1 * rng.Normal(), 0.1 * rng.Normal(), 0.1 * rng.Normal()});
   }
@@ -156,9 +156,10 @@ TEST(ShapeMotion, FollowsThePath) {
 
 TEST(ShapeMotion, SameBytesAtAnyNumberOfThreadsAndAfterACheckpoint) {
   const World world = BallWorld();
-  Engine one(world, {Insects({})}, {.threads = 1, .kernel = {}});
-  Engine two(world, {Insects({})}, {.threads = 2, .kernel = {}});
-  Engine resumed(world, {Insects({})}, {.threads = 1, .kernel = {}});
+  const Swarm insects = Insects({}, 2600);  // more than one chunk of work
+  Engine one(world, {insects}, {.threads = 1, .kernel = {}});
+  Engine two(world, {insects}, {.threads = 2, .kernel = {}});
+  Engine resumed(world, {insects}, {.threads = 1, .kernel = {}});
   for (int k = 0; k < 30; ++k) {
     one.Step();
     two.Step();
@@ -170,6 +171,7 @@ TEST(ShapeMotion, SameBytesAtAnyNumberOfThreadsAndAfterACheckpoint) {
     resumed.Step();
   }
   EXPECT_EQ(one.State().position, two.State().position);
+  EXPECT_EQ(one.State().velocity, two.State().velocity);
   EXPECT_EQ(one.State().position, resumed.State().position);
   EXPECT_EQ(one.State().velocity, resumed.State().velocity);
 }
