@@ -15,9 +15,7 @@ namespace {
 
 constexpr int kIterations = 6;  // of one round, at most
 constexpr int kAnnealIterations = 10;
-constexpr int kSweeps = 2;  // through all animals, at most
-// A sweep takes time with the square of the animals, the rest of the search as they are.
-constexpr std::size_t kFewToMove = 80;
+constexpr std::size_t kFew = 30;
 constexpr Effort kRough{.enough = 0.5, .step = {.share = 3e-2, .most = 60}};
 
 // Forces and paths from where they are, with the noise that they leave from round to
@@ -124,9 +122,16 @@ std::vector<double> Apart(const std::vector<Bird>& a, const std::vector<Bird>& b
 // knows who is in front; a start takes longer the more neighbours there are, so that large flocks
 // have time for one.
 std::vector<double> AnnealedStarts(bool sizes, std::size_t animals) {
-  constexpr std::size_t kFew = 30;
   if (sizes) return {0.25};
   return animals > kFew ? std::vector<double>{1} : std::vector<double>{0.5, 1};
+}
+
+// How often all animals are tried at other depths, at most. It takes time with the square of their
+// number, where the rest of the search takes it with their number.
+int Sweeps(std::size_t animals) {
+  constexpr std::size_t kMany = 80;
+  if (animals > kMany) return 0;
+  return animals > kFew ? 1 : 2;
 }
 
 }  // namespace
@@ -143,9 +148,9 @@ FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine&
     if (next.birds.empty() || flock.improbable < next.improbable) next = std::move(flock);
   }
   best.apart = Apart(best.birds, next.birds);
-  if (best.birds.size() > kFewToMove) return best;
-  best.Settle(window.model, kAnnealIterations);
-  for (int sweep = 0; sweep < kSweeps && MoveDepths(window.model, &best) > 0; ++sweep) {
+  const int sweeps = Sweeps(best.birds.size());
+  if (sweeps > 0) best.Settle(window.model, kAnnealIterations);
+  for (int sweep = 0; sweep < sweeps && MoveDepths(window.model, &best) > 0; ++sweep) {
   }
   return best;
 }
