@@ -99,7 +99,7 @@ TEST(DepthMoves, PutAnAnimalBack) {
         flock.Settle(window.model, 20);
         const double best = flock.improbable;
         for (std::size_t k = 2; k < flock.birds[1].path.size(); k += 3) {
-          flock.birds[1].path[k] += 0.15;
+          flock.birds[1].path[k] -= 0.3;
         }
         CoupledFlock moved = flock.Coupled(window.model);
         flock.Take(moved);
