@@ -73,8 +73,13 @@ int MoveAlone(const BatchModel& model, FollowedFlock* flock, std::vector<Place>*
 int MoveDepths(const BatchModel& model, FollowedFlock* flock) {
   constexpr std::size_t kMost = 12;  // places that the whole flock settles for
   std::vector<Place> places;
+  const FollowedFlock before = *flock;
   int moved = MoveAlone(model, flock, &places);
   flock->Settle(model, kTogether);
+  if (!(flock->improbable < before.improbable)) {
+    *flock = before;
+    moved = 0;
+  }
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.worse < b.worse; });
   places.resize(std::min(places.size(), kMost));

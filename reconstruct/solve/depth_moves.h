@@ -14,7 +14,7 @@
 
 namespace flocklift::internal {
 
-// `flock` has settled. Returns how many animals were moved.
+// `flock` has settled, and is never less probable after it. Returns how many animals were moved.
 int MoveDepths(const BatchModel& model, FollowedFlock* flock);
 
 }  // namespace flocklift::internal

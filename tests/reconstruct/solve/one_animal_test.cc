@@ -88,31 +88,33 @@ TEST(OneAnimal, ComesToRestWhereTheCostOfAllHasNoSlope) {
   });
 }
 
-// An animal that is far from where it belongs, the others where they are.
-TEST(DepthMoves, PutAnAnimalBack) {
+// Animals that were put far away come to rest on their way back, some of them where settling
+// leaves them. Over many, for where one of them ends hangs on the last digits.
+TEST(DepthMoves, LeadOutOfWhereSettlingEnds) {
   int asked = 0;
+  double gain = 0;
   const FlockSpec spec{.count = 6, .frames = 90};
-  internal::SolveWindow(
-      {}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {}, [&](const WindowToRefine& window) {
-        ++asked;
-        internal::FollowedFlock flock = internal::FollowForces({}, window);
-        flock.Settle(window.model, 20);
-        const double best = flock.improbable;
-        for (std::size_t k = 2; k < flock.birds[1].path.size(); k += 3) {
-          flock.birds[1].path[k] -= 0.3;
-        }
-        CoupledFlock moved = flock.Coupled(window.model);
-        flock.Take(moved);
-        const double worse = flock.improbable;
-        ASSERT_GT(worse, best + 50);
-        internal::MoveDepths(window.model, &flock);
-        EXPECT_LT(flock.improbable, best + 0.1 * (worse - best));
-        // And never away from there.
-        const double at_best = flock.improbable;
-        internal::MoveDepths(window.model, &flock);
-        EXPECT_LT(flock.improbable, at_best + 0.5);  // accelerations count at depths of now
-      });
+  internal::SolveWindow({}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
+                        [&](const WindowToRefine& window) {
+                          ++asked;
+                          const internal::FollowedFlock found = internal::FollowForces({}, window);
+                          for (std::size_t i = 0; i < found.birds.size(); ++i) {
+                            for (const double off : {-0.5, 0.3, 0.4, 0.5}) {
+                              internal::FollowedFlock flock = found;
+                              for (std::size_t k = 2; k < flock.birds[i].path.size(); k += 3) {
+                                flock.birds[i].path[k] += off;
+                              }
+                              for (int again = 0; again < 4; ++again)
+                                flock.Settle(window.model, 60);
+                              const double stuck = flock.improbable;
+                              internal::MoveDepths(window.model, &flock);
+                              EXPECT_LE(flock.improbable, stuck);
+                              gain += stuck - flock.improbable;
+                            }
+                          }
+                        });
   EXPECT_EQ(asked, 1);
+  EXPECT_GT(gain, 15);
 }
 
 }  // namespace
