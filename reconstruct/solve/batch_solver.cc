@@ -13,6 +13,10 @@ namespace {
 
 constexpr double kLeastDamping = 1e-9, kMostDamping = 1e9;
 
+double Damped(double damping, bool moved) {
+  return std::clamp(damping * (moved ? 0.2 : 8), kLeastDamping, kMostDamping);
+}
+
 }  // namespace
 
 double BatchSolver::Cost() {
@@ -33,14 +37,36 @@ Eigen::MatrixXd BatchSolver::Linearize() {
 }
 
 void BatchSolver::Assemble() {
-  ForEachBird([this](std::size_t i) {
-    ArrowSystem& system = work_[i].system;
-    system.SetZero();
-    ForEachRow(state_.model, state_.birds[i], state_.shared, true,
-               [&system](Term term, const ResidualRow& row) {
-                 system.Add(row, RobustWeight(term, row.residual));
-               });
+  ForEachBird([this](std::size_t i) { Assemble(state_.birds[i], &work_[i].system); });
+}
+
+void BatchSolver::Assemble(const Bird& bird, ArrowSystem* system) const {
+  system->SetZero();
+  ForEachRow(state_.model, bird, state_.shared, true, [system](Term term, const ResidualRow& row) {
+    system->Add(row, RobustWeight(term, row.residual));
   });
+}
+
+double BatchSolver::MinimizeAlone(std::size_t i, int max_iterations, Bird* bird) {
+  constexpr double kStandstill = 0.01;  // of log likelihood
+  Workspace& w = work_[i];
+  w.candidate = *bird;
+  const Eigen::VectorXd still = Eigen::VectorXd::Zero(state_.model.shared());
+  double damping = 1e-3;
+  double cost = CostOf(state_.model, *bird, state_.shared);
+  for (int iteration = 0; iteration < max_iterations && damping < kMostDamping; ++iteration) {
+    Assemble(*bird, &w.system);
+    if (!Reduce(damping, &w)) return cost;
+    const bool moved = Step(still, state_.shared, *bird, &w) && w.candidate_cost < cost;
+    damping = Damped(damping, moved);
+    if (!moved) continue;
+    const double fall = cost - w.candidate_cost;
+    std::swap(bird->path, w.candidate.path);
+    bird->own = w.candidate.own;
+    cost = w.candidate_cost;
+    if (fall < kStandstill) break;
+  }
+  return cost;
 }
 
 void BatchSolver::Reduce(double damping_factor, Eigen::MatrixXd* matrix,
@@ -48,10 +74,8 @@ void BatchSolver::Reduce(double damping_factor, Eigen::MatrixXd* matrix,
   const int size = state_.model.shared();
   ForEachBird([&](std::size_t i) {
     Workspace& w = work_[i];
-    for (double damping = damping_factor * w.damping;; damping = std::max(10 * damping, 1e-9)) {
-      w.shared_matrix.setZero(size, size);
-      w.shared_gradient.setZero(size);
-      if (w.system.Reduce(damping, &w.shared_matrix, &w.shared_gradient)) break;
+    for (double damping = damping_factor * w.damping; !Reduce(damping, &w);
+         damping = std::max(10 * damping, 1e-9)) {
       if (damping > kMostDamping) {  // nothing is known of this animal: leave it out
         w.system.SetIdentity();
       }
@@ -64,6 +88,26 @@ void BatchSolver::Reduce(double damping_factor, Eigen::MatrixXd* matrix,
     *matrix += w.shared_matrix;
     *gradient += w.shared_gradient;
   }
+}
+
+bool BatchSolver::Reduce(double damping, Workspace* w) const {
+  const int size = state_.model.shared();
+  w->shared_matrix.setZero(size, size);
+  w->shared_gradient.setZero(size);
+  return w->system.Reduce(damping, &w->shared_matrix, &w->shared_gradient);
+}
+
+bool BatchSolver::Step(const Eigen::VectorXd& shared_step, const Eigen::VectorXd& shared,
+                       const Bird& bird, Workspace* w) const {
+  const Eigen::VectorXd step = w->system.BackSubstitute(shared_step);
+  w->candidate_cost = std::numeric_limits<double>::infinity();
+  if (!step.allFinite()) return false;
+  w->candidate.path = bird.path;
+  w->candidate.own = bird.own;
+  for (int k = 0; k < bird.unknowns(); ++k) w->candidate.path[k] += step[k];
+  for (int k = 0; k < kOwnUnknowns; ++k) w->candidate.own[k] += step[bird.unknowns() + k];
+  w->candidate_cost = CostOf(state_.model, w->candidate, shared);
+  return w->candidate_cost < std::numeric_limits<double>::infinity();
 }
 
 bool BatchSolver::Minimize(int max_iterations, const Standstill& standstill, int* iterations,
@@ -90,18 +134,7 @@ bool BatchSolver::Minimize(int max_iterations, const Standstill& standstill, int
       ForEachBird([&](std::size_t i) {
         Workspace& w = work_[i];
         const Bird& bird = state_.birds[i];
-        const Eigen::VectorXd own_step = w.system.BackSubstitute(shared_step);
-        w.candidate.path = bird.path;
-        w.candidate.own = bird.own;
-        w.candidate_cost = std::numeric_limits<double>::infinity();
-        if (own_step.allFinite()) {
-          for (int k = 0; k < bird.unknowns(); ++k) w.candidate.path[k] += own_step[k];
-          for (int k = 0; k < kOwnUnknowns; ++k) {
-            w.candidate.own[k] += own_step[bird.unknowns() + k];
-          }
-          w.candidate_cost = CostOf(state_.model, w.candidate, shared);
-        }
-        w.moved = w.candidate_cost < std::numeric_limits<double>::infinity();
+        w.moved = Step(shared_step, shared, bird, &w);
         if (!(w.candidate_cost < w.cost)) {
           const double stay = CostOf(state_.model, bird, shared);
           if (!(w.candidate_cost < stay)) {
@@ -122,7 +155,7 @@ bool BatchSolver::Minimize(int max_iterations, const Standstill& standstill, int
           state_.birds[i].own = w.candidate.own;
         }
         w.cost = w.candidate_cost;
-        w.damping = std::clamp(w.damping * (w.moved ? 0.2 : 8), kLeastDamping, kMostDamping);
+        w.damping = Damped(w.damping, w.moved);
       }
       still = cost - candidate < standstill.fall + kRounding * cost ? still + 1 : 0;
       cost = candidate;

@@ -59,6 +59,10 @@ class BatchSolver {
   bool Minimize(int max_iterations, const Standstill& standstill, int* iterations,
                 const std::function<void()>& on_iteration);
 
+  // One animal by itself, the flock's unknowns as they are, until its cost stands still. Returns
+  // the cost.
+  double MinimizeAlone(std::size_t i, int max_iterations, Bird* bird);
+
   double Cost();
 
   // Normal equations at the present state, undamped. Returns the covariance of the flock's
@@ -77,8 +81,15 @@ class BatchSolver {
 
  private:
   void Assemble();
+  void Assemble(const Bird& bird, ArrowSystem* system) const;
   // Eliminates every animal; an animal whose system is singular is damped until it is not.
   void Reduce(double damping_factor, Eigen::MatrixXd* matrix, Eigen::VectorXd* gradient);
+  // One animal; false when its system is not positive definite.
+  bool Reduce(double damping, Workspace* w) const;
+  // The candidate that a step of the flock's unknowns, to `shared`, makes of `bird`, and its cost;
+  // false when it is not finite.
+  bool Step(const Eigen::VectorXd& shared_step, const Eigen::VectorXd& shared, const Bird& bird,
+            Workspace* w) const;
 
   BatchState& state_;
   ThreadPool pool_;

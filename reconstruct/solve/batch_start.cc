@@ -93,7 +93,29 @@ void BinSizes(const BatchModel& model, Bird* bird) {
   }
 }
 
-void StartDepth(const BatchModel& model, const ScaleGuess& guess, Bird* bird) {
+// Of an animal of which nothing is known but what is seen.
+DepthSearchPriors FirstPriors(const BatchModel& model, const ScaleGuess& guess) {
+  const Spreads& s = model.spreads;
+  return {
+      .log_speed = guess.log_speed,
+      .speed_sd = std::hypot(s.speed_between, s.speed.sd, std::min(model.flock_log_speed.sd, 0.3)),
+      .speed_time = s.speed.time,
+      .acceleration_sd = s.acceleration.sd,
+      .acceleration_time = s.acceleration.time,
+      .log_width = guess.log_width,
+      .size_sd = std::hypot(s.size.sd, s.size_between, 0.1),
+      .size_time = s.size.time,
+      .log_depth = guess.log_depth,
+      .depth_sd = model.use_depth ? std::max(1.5 * s.depth.sd, 0.1) : 1,
+      .depth_time = s.depth.time,
+      .climb_sd = s.climb.sd,
+      .climb_time = s.climb.time,
+      .up_in_cam = model.use_climb ? model.up_in_cam : std::nullopt,
+      .log_near = guess.log_near,
+      .log_far = guess.log_far};
+}
+
+void GridDepth(const BatchModel& model, const DepthSearchPriors& priors, Bird* bird) {
   constexpr double kSearchInterval = 0.25;  // [s]
   const int stride =
       std::max(1, static_cast<int>(std::lround(kSearchInterval / model.knot_interval)));
@@ -126,24 +148,6 @@ void StartDepth(const BatchModel& model, const ScaleGuess& guess, Bird* bird) {
   for (std::size_t k = 0; k < search.size(); ++k) {
     if (search[k].log_depth) *search[k].log_depth /= met[k];
   }
-  const Spreads& s = model.spreads;
-  DepthSearchPriors priors{
-      .log_speed = guess.log_speed,
-      .speed_sd = std::hypot(s.speed_between, s.speed.sd, std::min(model.flock_log_speed.sd, 0.3)),
-      .speed_time = s.speed.time,
-      .acceleration_sd = s.acceleration.sd,
-      .acceleration_time = s.acceleration.time,
-      .log_width = guess.log_width,
-      .size_sd = std::hypot(s.size.sd, s.size_between, 0.1),
-      .size_time = s.size.time,
-      .log_depth = guess.log_depth,
-      .depth_sd = model.use_depth ? std::max(1.5 * s.depth.sd, 0.1) : 1,
-      .depth_time = s.depth.time,
-      .climb_sd = s.climb.sd,
-      .climb_time = s.climb.time,
-      .up_in_cam = model.use_climb ? model.up_in_cam : std::nullopt,
-      .log_near = guess.log_near,
-      .log_far = guess.log_far};
   const std::vector<double> depth = SearchDepth(priors, stride * model.knot_interval, search);
   for (int control = 0; control < bird->knots + 2; ++control) {
     const double place = std::clamp((control - 1.0) / stride, 0.0, static_cast<double>(steps - 1));
@@ -258,6 +262,19 @@ Eigen::VectorXd StartOfShared(const BatchModel& model) {
   return shared;
 }
 
+void SearchDepthAgain(const BatchModel& model, const ScaleGuess& guess,
+                      const Eigen::VectorXd& shared, Bird* bird) {
+  constexpr double kWorth = 0.5;
+  const Spreads& s = model.spreads;
+  DepthSearchPriors priors = FirstPriors(model, guess);
+  priors.log_speed = bird->own[kOwnLogSpeed];
+  priors.speed_sd = kWorth * std::hypot(s.speed.sd, 0.02);
+  priors.log_width = model.log_wingspan + bird->own[kOwnSizeBias] + shared[kSizeRatio];
+  priors.size_sd = kWorth * std::hypot(s.size.sd, 0.05);
+  priors.log_depth = shared.segment(model.depth.first, model.depth.size()).mean();
+  GridDepth(model, priors, bird);
+}
+
 Bird StartBird(const BatchModel& model, const Knowledge& knowledge, const ScaleGuess& guess,
                const Segment& segment, double fps, int first_frame) {
   const auto& sightings = segment.sightings;
@@ -286,7 +303,7 @@ Bird StartBird(const BatchModel& model, const Knowledge& knowledge, const ScaleG
   }
   BinSizes(model, &bird);
   SmoothImagePath(model, &bird);
-  StartDepth(model, guess, &bird);
+  GridDepth(model, FirstPriors(model, guess), &bird);
   return bird;
 }
 

@@ -30,6 +30,12 @@ Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time);
 Bird StartBird(const BatchModel& model, const Knowledge& knowledge, const ScaleGuess& guess,
                const Segment& segment, double fps, int first_frame);
 
+// The depth is searched anew by what is known of the animal and the flock by now. Its speed and
+// sizes are taken for twice as certain as they are: where smoothness left a path in a reversal of
+// depth, they lead out of it.
+void SearchDepthAgain(const BatchModel& model, const ScaleGuess& guess,
+                      const Eigen::VectorXd& shared, Bird* bird);
+
 }  // namespace flocklift::internal
 
 #endif  // FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_START_H_

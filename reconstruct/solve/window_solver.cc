@@ -75,6 +75,22 @@ Eigen::MatrixXd EstimateSpreads(const Spreads& guess, bool size_spread, BatchSta
   return covariance;
 }
 
+// Smoothness may hold a path in a reversal of depth, which the first search, with spreads not known
+// yet, did not see. Each animal is searched anew; what is more probable is kept.
+void TryOtherDepths(const ScaleGuess& guess, BatchState* state, BatchSolver* solver) {
+  constexpr int kIterations = 20;
+  solver->ForEachBird([&](std::size_t i) {
+    Bird& bird = state->birds[i];
+    Bird other = bird;
+    SearchDepthAgain(state->model, guess, state->shared, &other);
+    const double present = solver->MinimizeAlone(i, kIterations, &bird);
+    if (solver->MinimizeAlone(i, kIterations, &other) < present) {
+      std::swap(bird.path, other.path);
+      bird.own = other.own;
+    }
+  });
+}
+
 // How the animals turn as far as is known now, for their lean (cost_functions/size.h).
 void UpdateCurves(BatchState* state) {
   constexpr double kGravity = 9.81;  // [m/s^2]
@@ -264,6 +280,9 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
                                              usual, covariance, &state);
       }
       minimize(kSpreadIterations, roughly);
+      if (round == kFirstSearch || round == kSecondSearch) {
+        TryOtherDepths(guess, &state, &solver);
+      }
     }
     minimize(options.max_iterations, finally);
   }

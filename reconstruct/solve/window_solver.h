@@ -22,6 +22,8 @@ namespace flocklift::internal {
 
 inline constexpr int kStartIterations = 15;                     // before the first round, at most
 inline constexpr int kSpreadRounds = 8, kSpreadIterations = 6;  // of each, at most
+// After these rounds depths are searched anew: with spreads roughly known, and well known.
+inline constexpr int kFirstSearch = 1, kSecondSearch = 5;
 
 struct SolvedWindow {
   BatchResult result;
