@@ -31,6 +31,7 @@ ErrorPair::ErrorPair(const ResidualRow& a, const ResidualRow& b)
 void SpreadEstimator::BeginAnimal(double duration) {
   constexpr double kWhole = 1;  // [s]
   animals_ += std::min(1.0, duration / kWhole);
+  seconds_ += duration;
 }
 
 void SpreadEstimator::Add(Term term, double error, double variance) {
@@ -55,6 +56,7 @@ void SpreadEstimator::AddSizePair(double sum, double sum_variance, double differ
 
 void SpreadEstimator::Merge(const SpreadEstimator& other) {
   animals_ += other.animals_;
+  seconds_ += other.seconds_;
   sums_ += other.sums_;
   differences_ += other.differences_;
   for (std::size_t k = 0; k < kTermCount; ++k) {
@@ -65,10 +67,10 @@ void SpreadEstimator::Merge(const SpreadEstimator& other) {
 }
 
 void SpreadEstimator::Update(const Spreads& guess, double knot_interval, Spreads* spreads) const {
-  const auto update = [&](Term term, double first, double* sd, double worth = kGuessWorth) {
+  const auto update = [&](Term term, double n, double first, double* sd,
+                          double worth = kGuessWorth) {
     const std::size_t k = static_cast<std::size_t>(term);
     if (counts_[k] == 0) return;
-    const double n = term == Term::kTurn ? counts_[k] / 3 : animals_;
     const double now = SdOf(term);
     // What is seen of the errors; a posterior wider than the prior is one of outliers.
     const double seen = std::max(0.0, 1 - variances_[k] / (counts_[k] * now * now));
@@ -76,15 +78,17 @@ void SpreadEstimator::Update(const Spreads& guess, double knot_interval, Spreads
         std::sqrt((n * squares_[k] / counts_[k] + worth * first * first) / (n * seen + worth));
     *sd = std::clamp(next, 0.1 * first, 10 * first);
   };
-  update(Term::kAcceleration, guess.acceleration.sd, &spreads->acceleration.sd);
-  update(Term::kSpeed, guess.speed.sd, &spreads->speed.sd);
-  update(Term::kSize, guess.size.sd, &spreads->size.sd);
-  update(Term::kClimb, guess.climb.sd, &spreads->climb.sd);
-  update(Term::kDepth, guess.depth.sd, &spreads->depth.sd, kWidthWorth);
-  update(Term::kSpeedSpread, guess.speed_between, &spreads->speed_between);
-  update(Term::kSizeSpread, guess.size_between, &spreads->size_between);
+  const double sizes = std::max(animals_, seconds_ / std::max(2 * now_.size.time, knot_interval));
+  update(Term::kAcceleration, animals_, guess.acceleration.sd, &spreads->acceleration.sd);
+  update(Term::kSpeed, animals_, guess.speed.sd, &spreads->speed.sd);
+  update(Term::kSize, sizes, guess.size.sd, &spreads->size.sd);
+  update(Term::kClimb, animals_, guess.climb.sd, &spreads->climb.sd);
+  update(Term::kDepth, animals_, guess.depth.sd, &spreads->depth.sd, kWidthWorth);
+  update(Term::kSpeedSpread, animals_, guess.speed_between, &spreads->speed_between);
+  update(Term::kSizeSpread, animals_, guess.size_between, &spreads->size_between);
   spreads->size_between = std::max(spreads->size_between, guess.size_between);
-  update(Term::kTurn, guess.turn.sd, &spreads->turn.sd);
+  update(Term::kTurn, counts_[static_cast<std::size_t>(Term::kTurn)] / 3, guess.turn.sd,
+         &spreads->turn.sd);
   if (sums_ + differences_ > 0) {
     const double found = (sums_ - differences_) / (sums_ + differences_);
     const double first = guess.size.Correlation(knot_interval);

@@ -5,9 +5,10 @@
 // posterior variances v under the present sd s, the next standard deviation is
 //   sd^2 = (n mean(e^2) + n_0 sd_0^2) / (n (1 - mean(v) / s^2) + n_0)
 // where n counts animals (tracks of less than a second as parts of one) and the first guess sd_0 is
-// worth n_0 of them: MacKay's fixed point (Bayesian interpolation, 1992), that of expectation
-// maximisation, which takes (n mean(e^2 + v) + n_0 sd_0^2) / (n + n_0) and creeps where little is
-// seen of an error (v near s^2). How long an error of size lasts is found by expectation
+// worth n_0 of them; of sizes, whose errors last a time t that is short, it counts one in 2 t
+// instead, or one a knot. It is MacKay's fixed point (Bayesian interpolation, 1992), that of
+// expectation maximisation, which takes (n mean(e^2 + v) + n_0 sd_0^2) / (n + n_0) and creeps where
+// little is seen of an error (v near s^2). How long an error of size lasts is found by expectation
 // maximisation, from its correlation from knot to knot, with the first guess's rho_0:
 //   rho = (n sum(e e') / sum((e^2 + e'^2) / 2) + n_0 rho_0) / (n + n_0),  sums in expectation.
 // Sizes differ between animals as their wingspans do and by what pose leaves over: never by less
@@ -46,7 +47,7 @@ class SpreadEstimator {
   double SdOf(Term term) const;
 
   Spreads now_;
-  double animals_ = 0;
+  double animals_ = 0, seconds_ = 0;
   std::array<double, kTermCount> squares_{}, variances_{}, counts_{};
   double sums_ = 0, differences_ = 0;  // of pairs of sizes, squared
 };

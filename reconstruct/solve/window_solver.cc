@@ -94,14 +94,24 @@ void TryOtherDepths(const ScaleGuess& guess, BatchState* state, BatchSolver* sol
 // How the animals turn as far as is known now, for their lean (cost_functions/size.h).
 void UpdateCurves(BatchState* state) {
   constexpr double kGravity = 9.81;  // [m/s^2]
+  constexpr double kHalf = 0.3;      // accelerations are averaged so long before and after [s]
   const double rate = 1 / state->model.knot_interval;
+  const int half = static_cast<int>(std::lround(kHalf * rate));
   for (Bird& bird : state->birds) {
+    std::vector<Vec3d> sums(bird.curve.size() + 1);  // of all knots before
     for (std::size_t knot = 0; knot < bird.curve.size(); ++knot) {
       const PathState<double> q = StateAtKnot(&bird.path[3 * knot], rate);
       const double time =
           (bird.first_knot + static_cast<double>(knot)) * state->model.knot_interval;
-      bird.curve[knot] =
-          std::exp(q.l) / kGravity * AccelerationOverDepth(q, state->model.camera.At(time));
+      sums[knot + 1] = sums[knot] + std::exp(q.l) / kGravity *
+                                        AccelerationOverDepth(q, state->model.camera.At(time));
+    }
+    const int knots = static_cast<int>(bird.curve.size());
+    for (int knot = 0; knot < knots; ++knot) {
+      const int first = std::max(0, knot - half), end = std::min(knots, knot + half + 1);
+      bird.curve[static_cast<std::size_t>(knot)] =
+          (1.0 / (end - first)) *
+          (sums[static_cast<std::size_t>(end)] - sums[static_cast<std::size_t>(first)]);
     }
   }
 }

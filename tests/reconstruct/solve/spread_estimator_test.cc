@@ -41,6 +41,34 @@ TEST(SpreadEstimator, ByHand) {
   EXPECT_EQ(next.turn.sd, guess.turn.sd);  // of which nothing was said
 }
 
+// 10.5 seconds of errors of size that last 0.5 s: 10.5 of them, one a second; a bias once a bird.
+TEST(SpreadEstimator, ShortErrorsAreToldOften) {
+  Spreads guess = Guess(0.2);
+  guess.size = {0.2, 0.5};
+  SpreadEstimator estimator(guess);
+  for (const double duration : {10.0, 0.5}) {
+    estimator.BeginAnimal(duration);
+    estimator.Add(Term::kSize, 0.1, 0);
+    estimator.Add(Term::kSizeSpread, 0.1, 0);
+  }
+  Spreads next = guess;
+  estimator.Update(guess, kKnotInterval, &next);
+  EXPECT_NEAR(next.size.sd, std::sqrt((10.5 * 0.01 + 4 * 0.04) / 14.5), 1e-12);
+  EXPECT_NEAR(next.size_between, std::sqrt((1.5 * 0.01 + 4 * 0.0025) / 5.5), 1e-12);
+  guess.size.time = 20;  // longer than they are seen
+  SpreadEstimator lasting(guess);
+  lasting.BeginAnimal(10);
+  lasting.Add(Term::kSize, 0.1, 0);
+  lasting.Update(guess, kKnotInterval, &next);
+  EXPECT_NEAR(next.size.sd, std::sqrt((1 * 0.01 + 4 * 0.04) / 5), 1e-12);
+  guess.size.time = 1e-3;  // shorter than knots are apart
+  SpreadEstimator brief(guess);
+  brief.BeginAnimal(10 * kKnotInterval);
+  brief.Add(Term::kSize, 0.1, 0);
+  brief.Update(guess, kKnotInterval, &next);
+  EXPECT_NEAR(next.size.sd, std::sqrt((10 * 0.01 + 4 * 0.04) / 14), 1e-12);
+}
+
 TEST(SpreadEstimator, OutliersAndVaguePosteriorsAreBounded) {
   const Spreads guess = Guess(0.1);
   SpreadEstimator estimator(guess);
