@@ -17,6 +17,7 @@
 #include "tools/view/folder_path.h"
 #include "tools/view/late_reader.h"
 #include "tools/view/page_routes.h"
+#include "tools/view/page_text.h"
 #include "tools/view/run_data.h"
 #include "tools/view/sketch.h"
 #include "tools/view/solve_options.h"
@@ -53,7 +54,9 @@ class FolderView::Impl {
                      }}) {}
 
   void Serve(HttpServer* server) {
-    ServePage(server, &bus_, [this] { std::call_once(is_heard_, [this] { ReadOn(); }); });
+    ServePage(
+        server, &bus_, [this] { return FirstData(); },
+        [this] { std::call_once(is_heard_, [this] { ReadOn(); }); });
     server->Get("/api/session", [this](const HttpRequest&) {
       const std::shared_lock lock(mutex_);
       return JsonReply(data_.Session());
@@ -93,14 +96,36 @@ class FolderView::Impl {
     });
   }
 
+  // All that the page's first picture needs but the film's: a browser that starts takes long to
+  // ask.
+  Json FirstData() {
+    background_.GiveWay();
+    const std::shared_lock lock(mutex_);
+    const int frame = data_.Span().first;
+    Json rows = Json::object();
+    for (const char* what : {"boxes", data_.FlockOf("after") != nullptr ? "after" : "before"}) {
+      try {
+        rows[what] = AsBase64(data_.Window(what, frame, frame));
+      } catch (const InputError&) {
+        // the page hears of it when it asks
+      }
+    }
+    TellAnimals();
+    return {{"session", data_.Session()}, {"first", {{"frame", frame}, {"rows", rows}}}};
+  }
+
   HttpReply Window(const HttpRequest& request) {
     background_.GiveWay();
     const int first = request.Number("first"), last = request.Number("last");
     const std::shared_lock lock(mutex_);
     HttpReply reply = BinaryReply(data_.Window(request.Text("what"), first, last));
+    TellAnimals();
+    return reply;
+  }
+
+  void TellAnimals() {
     const std::size_t animals = data_.animal_count();
     if (told_animals_.exchange(animals) < animals) bus_.Publish("data", data_.Versions());
-    return reply;
   }
 
   HttpReply Series(const HttpRequest& request) {

@@ -80,10 +80,7 @@ std::string_view Guard::Below(std::string_view path) const {
 
 const std::vector<std::pair<std::string, std::string>>& Guard::AnswerHeaders() {
   static const std::vector<std::pair<std::string, std::string>> headers = {
-      {"Content-Security-Policy",
-       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
-       "font-src data:; connect-src 'self'; media-src 'self'; base-uri 'none'; form-action 'none'; "
-       "frame-ancestors 'none'"},
+      {kPolicy, Policy("script-src 'none'; style-src 'none'")},
       {"X-Content-Type-Options", "nosniff"},
       {"X-Frame-Options", "DENY"},
       {"Referrer-Policy", "no-referrer"},
@@ -91,6 +88,12 @@ const std::vector<std::pair<std::string, std::string>>& Guard::AnswerHeaders() {
       {"Cross-Origin-Opener-Policy", "same-origin"},
       {"Cache-Control", "no-store"}};
   return headers;
+}
+
+std::string Guard::Policy(const std::string& may_run) {
+  return "default-src 'none'; " + may_run +
+         "; img-src 'self' blob: data:; font-src data:; connect-src 'self'; media-src 'self'; "
+         "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 }
 
 std::string NewToken() {

@@ -42,6 +42,7 @@ struct Refusal {
 
 class Guard {
  public:
+  static constexpr const char* kPolicy = "Content-Security-Policy";
   static constexpr std::size_t kMaxHeaderBytes = 16 << 10;
   static constexpr std::size_t kMaxBodyBytes = 1 << 20;
 
@@ -60,6 +61,9 @@ class Guard {
   // Sent with every answer, the refusals too: nothing from outside is loaded, nobody may frame,
   // sniff or embed what is sent, and the token leaves in no Referer.
   static const std::vector<std::pair<std::string, std::string>>& AnswerHeaders();
+  // The content security policy among them, with what may run (PageText::policy()) instead of
+  // nothing.
+  static std::string Policy(const std::string& may_run);
 
  private:
   std::string token_;

@@ -139,6 +139,10 @@ struct HttpServer::Impl {
       response.set_header("Content-Disposition",
                           fmt::format("attachment; filename=\"{}\"", reply.download_name));
     }
+    if (!reply.may_run.empty()) {
+      response.headers.erase(Guard::kPolicy);
+      response.set_header(Guard::kPolicy, Guard::Policy(reply.may_run));
+    }
     if (reply.file) return SendFile(*reply.file, reply.type, response);
     SendBytes(reply.body, reply.type, response);
   }

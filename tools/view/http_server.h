@@ -35,6 +35,7 @@ struct HttpReply {
   std::string body = {};
   std::optional<std::filesystem::path> file = {};  // instead of the body; ranges are served
   std::string download_name = {};                  // not empty: to be saved under this name
+  std::string may_run = {};                        // not empty: for Guard::Policy
 };
 
 class HttpServer {

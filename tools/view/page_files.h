@@ -11,7 +11,7 @@
 namespace flocklift {
 
 struct PageFiles {
-  std::string_view html, first, script, style;
+  std::string_view script, later, style;
   std::string_view missing;  // why there is no page; empty: there is one
 };
 

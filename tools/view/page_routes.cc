@@ -3,11 +3,13 @@
 
 #include "tools/view/page_routes.h"
 
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "simulate/core/check.h"
 #include "tools/view/page_files.h"
+#include "tools/view/page_text.h"
 
 namespace flocklift {
 
@@ -25,22 +27,18 @@ nlohmann::ordered_json BodyOf(const HttpRequest& request) {
   return json;
 }
 
-void ServePage(HttpServer* server, EventBus* bus, const std::function<void()>& listens) {
-  const PageFiles page = EmbeddedPage();
-  const auto file = [server](const std::string& path, const std::string& type,
-                             std::string_view text) {
-    server->Get(path, [type, text](const HttpRequest&) {
-      return HttpReply{.type = type, .body = std::string(text)};
-    });
-  };
-  file("/", "text/html; charset=utf-8", page.html);
-  file("/first.js", "text/javascript; charset=utf-8", page.first);
-  file("/page.js", "text/javascript; charset=utf-8", page.script);
-  file("/page.css", "text/css; charset=utf-8", page.style);
-  server->Stream("/api/events", "text/event-stream", [bus, listens](const HttpRequest&) {
-    listens();
-    return bus->Subscribe();
+void ServePage(HttpServer* server, EventBus* bus, std::function<nlohmann::ordered_json()> data,
+               std::function<void()> listens) {
+  const auto page = std::make_shared<const PageText>(EmbeddedPage());
+  server->Get("/", [page, data = std::move(data)](const HttpRequest&) {
+    return HttpReply{
+        .type = "text/html; charset=utf-8", .body = page->With(data()), .may_run = page->policy()};
   });
+  server->Stream("/api/events", "text/event-stream",
+                 [bus, listens = std::move(listens)](const HttpRequest&) {
+                   listens();
+                   return bus->Subscribe();
+                 });
 }
 
 }  // namespace flocklift

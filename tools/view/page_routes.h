@@ -20,10 +20,11 @@ HttpReply BinaryReply(std::string bytes);
 // The body of a POST; throws std::invalid_argument when it is no JSON object.
 nlohmann::ordered_json BodyOf(const HttpRequest& request);
 
-// "/", "/first.js", "/page.js", "/page.css", and "/api/events" from the bus, which must outlive the
-// server. Calls `listens` when a page begins to.
+// "/", the page with what it is to show first, and "/api/events" from the bus, which must outlive
+// the server. Calls `listens` when a page begins to.
 void ServePage(
-    HttpServer* server, EventBus* bus, const std::function<void()>& listens = [] {});
+    HttpServer* server, EventBus* bus, std::function<nlohmann::ordered_json()> data,
+    std::function<void()> listens = [] {});
 
 }  // namespace flocklift
 

@@ -91,7 +91,7 @@ class SceneView::Impl {
       : name_(path.stem().string()), out_(out), scene_(ReadScene(path)), live_(scene_, threads) {}
 
   void Serve(HttpServer* server) {
-    ServePage(server, &bus_);
+    ServePage(server, &bus_, [this] { return Json{{"session", Session()}}; });
     server->Get("/api/session", [this](const HttpRequest&) { return JsonReply(Session()); });
     server->Stream("/api/live", "application/octet-stream", [this](const HttpRequest&) {
       auto seen = std::make_shared<std::uint64_t>(0);

@@ -67,6 +67,9 @@ class Server : public testing::Test {
     server_.Get("/api/hello", [](const HttpRequest& r) {
       return HttpReply{.body = "{\"path\": \"" + r.path + "\", \"a\": \"" + r.Text("a") + "\"}"};
     });
+    server_.Get("/page", [](const HttpRequest&) {
+      return HttpReply{.body = "x", .may_run = "script-src 'sha256-x'; style-src 'none'"};
+    });
     server_.Get("/frame/", [](const HttpRequest& r) { return HttpReply{.body = r.path}; });
     server_.Get("/number", [](const HttpRequest& r) {
       return HttpReply{.body = std::to_string(r.Number("n") + 1)};
@@ -136,6 +139,14 @@ TEST_F(Server, EveryAnswerForbidsEverythingFromOutside) {
     EXPECT_THAT(answer, HasSubstr("Cross-Origin-Resource-Policy: same-origin"));
     EXPECT_THAT(answer, Not(HasSubstr("Access-Control-Allow-Origin")));
   }
+}
+
+// Nothing runs in an answer but what it says itself, and that policy stands alone.
+TEST_F(Server, ScriptsRunWhereTheAnswerNamesThem) {
+  EXPECT_THAT(Get("/api/hello"), HasSubstr("script-src 'none'; style-src 'none';"));
+  const std::string page = Get("/page");
+  EXPECT_THAT(page, HasSubstr("default-src 'none'; script-src 'sha256-x'; style-src 'none'; img"));
+  EXPECT_EQ(page.find("Content-Security-Policy"), page.rfind("Content-Security-Policy"));
 }
 
 TEST_F(Server, RefusesHostileHostsOriginsAndTokens) {

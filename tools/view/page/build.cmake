@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # Bundles the page: cmake -DNODE= -DNPM= -DSOURCE= -DOUT= -DBUILD_PAGE= -P build.cmake. Writes
-# page.html, first.js, page.js, page.css and missing.txt into OUT; where the page cannot be made,
-# missing.txt says why and the others say it to a browser. Without page.stamp the next build tries
-# again.
+# page.js, later.js, page.css and missing.txt into OUT; where the page cannot be made, missing.txt says why and
+# the others are empty. Without page.stamp the next build tries again.
 
 file(MAKE_DIRECTORY ${OUT}/site)
 file(REMOVE ${OUT}/page.stamp)
@@ -12,12 +11,9 @@ file(REMOVE ${OUT}/page.stamp)
 function(give_up reason)
   message(STATUS "view has no page: ${reason}")
   file(WRITE ${OUT}/missing.txt "${reason}")
-  file(WRITE ${OUT}/first.js "")
   file(WRITE ${OUT}/page.js "")
-  file(WRITE ${OUT}/page.css "body { font: 16px sans-serif; margin: 15vh auto; max-width: 60ch }")
-  file(WRITE ${OUT}/page.html "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\">"
-       "<title>flocklift</title><link rel=\"stylesheet\" href=\"page.css\"><h1>No page</h1>"
-       "<p>${reason}</p></html>")
+  file(WRITE ${OUT}/later.js "")
+  file(WRITE ${OUT}/page.css "")
 endfunction()
 
 if(NOT BUILD_PAGE)

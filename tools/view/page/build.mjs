@@ -1,21 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// node build.mjs OUT: page.html, first.js, page.js and page.css, with every package bundled in.
+// node build.mjs OUT: page.js, later.js and page.css, with every package bundled in. later.js is what
+// the first picture does without; it uses the page's preact.
 
 import { build } from 'esbuild';
-import { copyFile } from 'node:fs/promises';
-import { join, resolve } from 'node:path';
+import { resolve } from 'node:path';
 
 const out = process.argv[2];
-// Of three only what calculates: its renderers are more than all the rest, and none is used.
-const core = {
-  name: 'core',
-  setup: ({ onResolve }) => onResolve({ filter: /^three$/ }, () => ({
-    path: resolve('node_modules/three/build/three.core.js'), sideEffects: false })),
-};
-await build({
-  entryPoints: { first: 'src/first.ts', page: 'src/main.tsx' },
+const options = {
   outdir: out,
   bundle: true,
   minify: true,
@@ -24,7 +17,21 @@ await build({
   jsx: 'automatic',
   jsxImportSource: 'preact',
   legalComments: 'eof',
-  plugins: [core],
   logLevel: 'warning',
-});
-await copyFile('src/page.html', join(out, 'page.html'));
+};
+// Of three only what calculates: its renderers are more than all the rest, and none is used.
+const core = {
+  name: 'core',
+  setup: ({ onResolve }) => onResolve({ filter: /^three$/ }, () => ({
+    path: resolve('node_modules/three/src/Three.Core.js'), sideEffects: false })),
+};
+const shared = {
+  name: 'shared',
+  setup: ({ onResolve, onLoad }) => {
+    onResolve({ filter: /^preact/ }, ({ path }) => ({ path, namespace: 'shared' }));
+    onLoad({ filter: /.*/, namespace: 'shared' }, ({ path }) => ({
+      contents: `module.exports = globalThis.flockliftShared['${path}'];` }));
+  },
+};
+await build({ ...options, entryPoints: { page: 'src/main.tsx' }, plugins: [core] });
+await build({ ...options, entryPoints: { later: 'src/later.ts' }, plugins: [shared] });

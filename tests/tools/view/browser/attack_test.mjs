@@ -59,12 +59,14 @@ for (const host of ['127.0.0.1', 'localhost']) {
       write: await attempt(json, 'api/edit'),
       plain: await attempt({ ...json, headers: { 'Content-Type': 'text/plain' }, mode: 'no-cors' }, 'api/edit'),
       picture: await load('img', 'src', 'frame/1'),
-      script: await load('script', 'src', 'page.js'),
+      page: await attempt({}, ''),
+      script: await load('script', 'src', ''),
       film: await load('video', 'src', 'video'),
       events: await sends,
     };
   }, server.address);
   assert.equal(seen.read, 'refused');
+  assert.equal(seen.page, 'refused');
   assert.equal(seen.write, 'refused');
   for (const what of ['picture', 'script', 'film', 'events']) assert.equal(seen[what], 'refused', what);
   for (const what of ['blind', 'plain']) assert.ok(['opaque', 'refused'].includes(seen[what]), what);

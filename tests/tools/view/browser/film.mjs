@@ -8,10 +8,9 @@ import { until } from './harness.mjs';
 
 export const readFrame = (page) =>
   page.evaluate(({ bits, field }) => {
-    const canvas = document.querySelector('.film canvas');
     const { footage } = window.flocklift;
     const t = footage.transform();
-    const g = canvas.getContext('2d');
+    const g = footage.sheet.getContext('2d');
     let number = 0;
     for (let bit = 0; bit < bits; bit++) {
       const x = Math.round(t.x + (bit + 0.5) * field * t.scale);

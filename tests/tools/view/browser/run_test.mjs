@@ -33,7 +33,7 @@ say('the page loads');
 for (const key of ['1', '2', '3', '4']) {
   await press(key);
   const coloured = () => page.evaluate(() => {
-    const space = document.querySelector('.flight canvas');
+    const space = window.flocklift.flight.space.picture;
     for (const draw of window.flocklift.run.clock.drawers) draw();
     const flat = new OffscreenCanvas(space.width, space.height).getContext('2d');
     flat.drawImage(space, 0, 0);
@@ -118,7 +118,7 @@ await page.mouse.move(2, 300);
 const places = async () => JSON.stringify([await at(0), await at(2)]);
 const picture = () => page.evaluate(() => {
   window.flocklift.footage.draw();
-  return document.querySelector('.film canvas').toDataURL();
+  return window.flocklift.footage.sheet.toDataURL();
 });
 const before = await places();
 const pictureBefore = await picture();
@@ -293,8 +293,10 @@ const plain = await openBrowser(packages, { args: ['--no-sandbox', '--disable-gp
 const second = await serve(program, [scratch]);
 const bare = await openPage(plain, second.address);
 await until('words', () => bare.page.getByText('no WebGL').isVisible());
-await until('footage', () => bare.page.evaluate(() => document.querySelector('.film canvas').dataset.frame === '1'));
-say('the page says that there is no WebGL');
+for (const pane of ['.film', '.flight']) {
+  await until(pane, () => bare.page.evaluate((p) => document.querySelector(p + ' canvas').dataset.frame === '1', pane));
+}
+say('the page says that there is no WebGL, and draws');
 await plain.close();
 assert.equal(await second.stop(), 0);
 await browser.close();

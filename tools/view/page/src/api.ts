@@ -21,11 +21,9 @@ async function checked(response: Response): Promise<Response> {
   throw new Refusal(reason);
 }
 
-// What a request was answered; throws a Refusal where that is not what was asked for.
-export async function jsonOf<T>(answer: Promise<Response>): Promise<T> {
-  return (await checked(await answer)).json() as Promise<T>;
+export async function getJson<T>(path: string): Promise<T> {
+  return (await checked(await fetch(address(path)))).json() as Promise<T>;
 }
-export const getJson = <T>(path: string): Promise<T> => jsonOf(fetch(address(path)));
 
 export async function getBytes(path: string, signal?: AbortSignal): Promise<ArrayBuffer> {
   return (await checked(await fetch(address(path), { signal }))).arrayBuffer();

@@ -8,6 +8,7 @@ import type { Store } from './state';
 const PATIENCE = 300; // ms that a drawing waits for what it needs
 const SOON = 100; // ms
 const LATEST = 3000; // ms
+const SHOWN = 100; // ms that a browser may take to bring a drawing on the screen
 
 export class Clock {
   private last = 0;
@@ -117,7 +118,7 @@ export class Clock {
       this.isInSight = this.drawers.length > 0;
     }
     if (this.haveDrawn && this.isInSight && (this.has(this.frame) || now > this.latest)) {
-      setTimeout(this.haveDrawn);
+      setTimeout(this.haveDrawn, SHOWN);
       this.haveDrawn = undefined;
     }
     requestAnimationFrame((next) => this.tick(next));

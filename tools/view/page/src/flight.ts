@@ -9,7 +9,6 @@ import * as THREE from 'three';
 import { Birds, type Sight } from './birds';
 import { colourOf, ground } from './colours';
 import { rowOf, rowsOf, type TrajectoryRows } from './frames';
-import { drawsInSoftware } from './graphics';
 import { centreOf, poseAt } from './lens';
 import { Discs, Lines } from './lines';
 import type { Run } from './run';
@@ -187,7 +186,7 @@ export class FlightView {
     const state = run.store.get();
     const animals = Math.max(run.animals.length, 1);
     const shown = state.solo && state.selected >= 0 ? 2 : animals;
-    const most = (drawsInSoftware() ? MOST_IN_SOFTWARE : MOST_LINES) / shown;
+    const most = (this.space.isDrawnByProcessor ? MOST_IN_SOFTWARE : MOST_LINES) / shown;
     const stride = Math.max(Math.ceil(state.trails / Math.max(most - 1, 1)), 1);
     if (this.seen.length < animals) {
       this.seen = new Int32Array(2 * animals);

@@ -6,13 +6,14 @@
 
 import { ground } from './colours';
 import { rowOf, rowsOf, type BoxRows } from './frames';
-import { flatContext } from './graphics';
+import { canvasOver, flatContext, onCard } from './graphics';
 import { Overlay, drawStrokes, type Stroke } from './overlay';
 import { Pictures, type Picture } from './pictures';
 import type { Run } from './run';
 import { isShown } from './state';
 
 export class FootageView {
+  sheet: HTMLCanvasElement; // that is drawn on
   private pictures: Pictures;
   private overlay: Overlay;
   private shown: Picture | null = null;
@@ -30,7 +31,15 @@ export class FootageView {
   ) {
     this.pictures = new Pictures(run);
     this.overlay = new Overlay(run);
-    new ResizeObserver(() => run.clock.redraw()).observe(canvas);
+    this.sheet = canvas;
+    onCard(() => {
+      this.sheet = canvasOver(canvas);
+      run.clock.redraw();
+    });
+    new ResizeObserver(() => {
+      const [width, height] = this.room();
+      if (width !== this.sheet.width || height !== this.sheet.height) run.clock.redraw();
+    }).observe(canvas);
     const { session, boxes } = run;
     // A picture that comes late is drawn with its own tracks, so nothing has to wait for it.
     run.clock.onNeed((frame) => !session.has.boxes || boxes.ahead(frame) !== undefined);
@@ -63,18 +72,18 @@ export class FootageView {
   // Canvas pixels of a picture's pixel: scale and offset.
   private transform(): { scale: number; x: number; y: number } {
     const [w, h] = this.size;
-    const fit = Math.min(this.canvas.width / w, this.canvas.height / h);
+    const fit = Math.min(this.sheet.width / w, this.sheet.height / h);
     const scale = fit * this.zoom;
     return {
       scale,
-      x: (this.canvas.width - w * scale) / 2 + this.panX,
-      y: (this.canvas.height - h * scale) / 2 + this.panY,
+      x: (this.sheet.width - w * scale) / 2 + this.panX,
+      y: (this.sheet.height - h * scale) / 2 + this.panY,
     };
   }
   // Where an event is in the picture [px].
   private toPicture(event: MouseEvent): [number, number] {
     const box = this.canvas.getBoundingClientRect();
-    const ratio = this.canvas.width / Math.max(box.width, 1);
+    const ratio = this.sheet.width / Math.max(box.width, 1);
     const t = this.transform();
     return [
       ((event.clientX - box.left) * ratio - t.x) / t.scale - 0.5,
@@ -82,22 +91,27 @@ export class FootageView {
     ];
   }
 
+  // The pixels that there are for the picture.
+  private room(): [number, number] {
+    const { clientWidth, clientHeight } = this.canvas;
+    return [Math.round(clientWidth * devicePixelRatio), Math.round(clientHeight * devicePixelRatio)];
+  }
+
   draw(): void {
-    const { canvas, run } = this;
+    const { canvas, run, sheet } = this;
     const ratio = devicePixelRatio;
-    const width = Math.round(canvas.clientWidth * ratio);
-    const height = Math.round(canvas.clientHeight * ratio);
+    const [width, height] = this.room();
     if (width === 0 || height === 0) return;
-    if (canvas.width !== width || canvas.height !== height) {
-      canvas.width = width;
-      canvas.height = height;
+    if (sheet.width !== width || sheet.height !== height) {
+      sheet.width = width;
+      sheet.height = height;
     }
     const state = run.store.get();
     const { frame } = run.clock;
     this.shown = run.session.footage
       ? this.pictures.show(frame, state.playing)
       : { frame, bitmap: null };
-    const g = flatContext(canvas);
+    const g = flatContext(sheet, sheet !== canvas);
     g.setTransform(1, 0, 0, 1, 0, 0);
     g.fillStyle = ground(state.dark).back;
     g.fillRect(0, 0, width, height);
@@ -136,7 +150,7 @@ export class FootageView {
     this.reveal = false;
     const [x, y] = centreOfBox(rows, r);
     const t = this.transform();
-    const { width, height } = this.canvas;
+    const { width, height } = this.sheet;
     const u = t.x + x * t.scale;
     const v = t.y + y * t.scale;
     if (u > 0 && v > 0 && u < width && v < height) return;
@@ -171,9 +185,9 @@ export class FootageView {
   private wheel(event: WheelEvent): void {
     event.preventDefault();
     const box = this.canvas.getBoundingClientRect();
-    const ratio = this.canvas.width / box.width;
-    const x = (event.clientX - box.left) * ratio - this.canvas.width / 2;
-    const y = (event.clientY - box.top) * ratio - this.canvas.height / 2;
+    const ratio = this.sheet.width / box.width;
+    const x = (event.clientX - box.left) * ratio - this.sheet.width / 2;
+    const y = (event.clientY - box.top) * ratio - this.sheet.height / 2;
     const zoom = Math.min(Math.max(this.zoom * Math.exp(-event.deltaY / 400), 1), 40);
     const factor = zoom / this.zoom;
     this.panX = zoom === 1 ? 0 : x - factor * (x - this.panX);
@@ -191,7 +205,7 @@ export class FootageView {
     const startX = event.clientX;
     const startY = event.clientY;
     const { panX, panY } = this;
-    const ratio = this.canvas.width / this.canvas.getBoundingClientRect().width;
+    const ratio = this.sheet.width / this.canvas.getBoundingClientRect().width;
     const stroke: Stroke | null =
       this.run.store.get().mode === 'sketch' ? [this.toPicture(event)] : null;
     if (stroke) this.strokes.push(stroke);
@@ -231,7 +245,7 @@ export class FootageView {
     const [x, y] = centreOfBox(rows, r);
     const t = this.transform();
     const box = this.canvas.getBoundingClientRect();
-    const ratio = this.canvas.width / box.width;
+    const ratio = this.sheet.width / box.width;
     return [
       box.left + (t.x + (x + 0.5) * t.scale) / ratio,
       box.top + (t.y + (y + 0.5) * t.scale) / ratio,

@@ -88,8 +88,8 @@ export class FrameCache<T extends Rows> {
     const found = this.near(frame);
     if (found) return found;
     if (this.refused.has(number)) this.failed(this.refused.get(number));
-    else if (this.isLarge) return this.glimpses.get(frame) ?? this.look(frame);
-    return undefined;
+    const glimpse = this.glimpses.get(frame);
+    return glimpse || !this.isLarge ? glimpse : this.look(frame);
   }
   // The same of a frame beside the one that matters.
   near(frame: number): T | undefined {
@@ -114,6 +114,10 @@ export class FrameCache<T extends Rows> {
     this.want(this.numberOf(frame) + 1);
     if (this.isLarge) this.want(this.numberOf(frame) + 2);
     return found;
+  }
+  // A frame by itself that nobody has to fetch.
+  give(frame: number, bytes: ArrayBuffer): void {
+    this.keep(this.glimpses, frame, bytes, 1);
   }
   // What was fetched is of before; it stays in sight until the new has come.
   renew(): void {

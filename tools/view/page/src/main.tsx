@@ -9,14 +9,14 @@ import './style.css';
 
 import { render } from 'preact';
 
-import { getJson, jsonOf, listen } from './api';
+import { listen } from './api';
 import { Run } from './run';
 import { RunPage } from './runPage';
 import { ScenePage } from './scenePage';
-import { exportedSource, serverSource, type Source } from './source';
+import { source, type Source } from './source';
 import { Store } from './state';
 import { applyTheme, systemIsDark } from './theme';
-import type { Edits, Reading, Session, SolveNews, Versions } from './types';
+import type { Edits, Reading, SolveNews, Versions } from './types';
 
 const store = new Store({
   mode: 'look', frame: 1, playing: false, speed: 1, loop: true, selected: -1, second: -1,
@@ -49,22 +49,23 @@ function showRun(source: Source, root: HTMLElement): void {
   render(<RunPage run={run} />, root);
 }
 
-async function start(root: HTMLElement): Promise<void> {
+function start(root: HTMLElement): void {
   applyTheme(store);
-  const exported = exportedSource();
-  if (exported) return showRun(exported, root);
-  const session = await (window.asked ? jsonOf<Session>(window.asked.session) : getJson<Session>('api/session'));
+  const shown = source();
+  const session = 'session' in shown ? shown.session : shown;
   document.title = `${session.name} – flocklift`;
-  if (session.kind === 'run') return showRun(serverSource(session), root);
+  if ('session' in shown) return showRun(shown, root);
   store.set({ mode: 'steer', playing: true, trails: 12 });
-  render(<ScenePage session={session} store={store} />, root);
+  render(<ScenePage session={shown} store={store} />, root);
 }
 
 const root = document.getElementById('app') as HTMLElement;
-start(root).catch((error: unknown) => {
+try {
+  start(root);
+} catch (error) {
   root.innerHTML = '';
   const p = document.createElement('p');
   p.className = 'fatal';
   p.textContent = `The page cannot start: ${error instanceof Error ? error.message : String(error)}.`;
   root.append(p);
-});
+}

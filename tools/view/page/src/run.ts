@@ -53,6 +53,9 @@ export class Run {
     this.before = cache('before');
     this.after = cache('after');
     this.truth = cache('truth');
+    for (const [what, rows] of Object.entries(source.first.rows)) {
+      this[what as 'boxes' | 'before' | 'after'].give(source.first.frame, rows);
+    }
   }
 
   get session(): RunSession {

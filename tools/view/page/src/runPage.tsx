@@ -6,20 +6,17 @@
 
 import { useLayoutEffect, useMemo, useRef, useState } from 'preact/hooks';
 
-import { Charts } from './charts';
 import { Crosshair } from './crosshair';
 import { FlightView } from './flight';
 import { FootageView } from './footage';
 import { Help } from './help';
 import { listenToKeys, type Key } from './keys';
-import { LookPanel } from './lookPanel';
 import { Mending, type Tool } from './mending';
-import { MendPanel } from './mendPanel';
 import { Notices } from './notices';
+import { bringParts } from './parts';
+import type { Parts } from './later';
 import type { Run } from './run';
-import { SketchPanel } from './sketchPanel';
-import { SolvePanel } from './solvePanel';
-import { hasWebGL } from './graphics';
+import { NO_WEBGL, askForCard, type Means } from './graphics';
 import { useValue, type Mode, type ViewName } from './state';
 import { ThemeButton, flipTheme } from './theme';
 import { SPEEDS, Transport } from './transport';
@@ -149,8 +146,8 @@ export function RunPage({ run }: { run: Run }) {
   const panel = useValue(store, (s) => s.panel);
   const table = useValue(store, (s) => s.table);
   const reading = useValue(store, (s) => s.reading);
-  const webgl = useMemo(hasWebGL, []);
-  const [drawn, setDrawn] = useState(false);
+  const [means, setMeans] = useState<Means>('processor');
+  const [parts, setParts] = useState<Parts | null>(null);
   const hasFlock = session.has.before || run.versions.after > 0;
 
   // At once: by useEffect() it would be after a picture of the empty page.
@@ -166,7 +163,7 @@ export function RunPage({ run }: { run: Run }) {
       setFootage(view);
       handle.footage = views.footage = view;
     }
-    if (space.current && webgl) {
+    if (space.current) {
       const view = new FlightView(space.current, run);
       setScale(`grid ${view.space.gridStep} m`);
       view.onGrid = (step) => setScale(`grid ${step} m`);
@@ -174,7 +171,10 @@ export function RunPage({ run }: { run: Run }) {
     }
     Object.assign(window, { flocklift: handle });
     void run.clock.drawn.then(() => {
-      requestIdleCallback(() => setDrawn(true), { timeout: 500 });
+      requestIdleCallback(() => {
+        setMeans(askForCard());
+        setParts(bringParts());
+      }, { timeout: 500 });
       if (session.exported || !session.has.boxes) return;
       run.askSuspects().catch((error: unknown) => store.fail(error));
     });
@@ -205,25 +205,25 @@ export function RunPage({ run }: { run: Run }) {
         </section>
         <section class="pane flight">
           <canvas ref={space} tabIndex={0} aria-label="the flock in space" />
-          {webgl && hasFlock && (
+          {hasFlock && (
             <div class="overlay">
               <ViewButtons store={store} film={session.camera !== null} />
-              <span class="tag">{table === 'after' ? 'solved here' : ''}</span>
+              <span class="tag">{[table === 'after' ? 'solved here' : '', means === 'no WebGL' ? NO_WEBGL : '']
+                .filter(Boolean).join(' · ')}</span>
               <span class="tag end">{scale}</span>
             </div>
           )}
-          {!webgl && <p class="words">This browser has no WebGL 2, so the flock cannot be drawn in space. The footage, the curves and the tools work without it.</p>}
-          {webgl && !hasFlock && <p class="words">{nothing ? 'There is nothing to show yet.' : 'The folder holds no trajectories yet: run `flocklift reconstruct`, or Re-solve here.'}</p>}
+          {!hasFlock && <p class="words">{nothing ? 'There is nothing to show yet.' : 'The folder holds no trajectories yet: run `flocklift reconstruct`, or Re-solve here.'}</p>}
         </section>
       </main>
-      {drawn ? <Charts run={run} /> : <div class="charts" />}
+      {parts ? <parts.Charts run={run} /> : <div class="charts" />}
       <Transport run={run} />
       {panel && (
         <aside tabIndex={-1}>
-          {(mode === 'look' || session.exported) && <LookPanel run={run} />}
-          {mode === 'solve' && !session.exported && <SolvePanel run={run} />}
-          {mode === 'mend' && !session.exported && <MendPanel run={run} mending={mending} />}
-          {mode === 'sketch' && !session.exported && footage && <SketchPanel run={run} footage={footage} fit={() => views.flight?.fit()} />}
+          {parts && (mode === 'look' || session.exported) && <parts.LookPanel run={run} />}
+          {parts && mode === 'solve' && !session.exported && <parts.SolvePanel run={run} />}
+          {parts && mode === 'mend' && !session.exported && <parts.MendPanel run={run} mending={mending} />}
+          {parts && mode === 'sketch' && !session.exported && footage && <parts.SketchPanel run={run} footage={footage} fit={() => views.flight?.fit()} />}
         </aside>
       )}
       <Notices store={store} />

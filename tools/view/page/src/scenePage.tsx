@@ -10,11 +10,13 @@ import { Crosshair } from './crosshair';
 import { Help } from './help';
 import { listenToKeys, type Key } from './keys';
 import { watchLive } from './live';
-import { LiveCharts, LiveSeries } from './liveCharts';
+import type { Parts } from './later';
+import { LiveSeries } from './liveSeries';
 import { Notices } from './notices';
-import { hasWebGL } from './graphics';
+import { NO_WEBGL, askForCard, type Means } from './graphics';
 import { useValue, type Store, type ViewName } from './state';
-import { SteerPanel, steer } from './steerPanel';
+import { bringParts } from './parts';
+import { steer } from './steer';
 import { SwarmView } from './swarm';
 import { ThemeButton, flipTheme } from './theme';
 import type { SceneSession } from './types';
@@ -33,8 +35,9 @@ export function ScenePage({ session, store }: { session: SceneSession; store: St
   const canvas = useRef<HTMLCanvasElement>(null);
   const swarm = useRef<SwarmView | null>(null);
   const paceNow = useRef(1);
-  const webgl = useMemo(hasWebGL, []);
+  const [means, setMeans] = useState<Means>('processor');
   const series = useMemo(() => new LiveSeries(), []);
+  const [parts, setParts] = useState<Parts | null>(null);
   const [rates, setRates] = useState('');
   const [pace, setPace] = useState(1);
   const [scale, setScale] = useState('');
@@ -84,7 +87,7 @@ export function ScenePage({ session, store }: { session: SceneSession; store: St
   useEffect(() => {
     listenToKeys(keys);
     let view: SwarmView | null = null;
-    if (canvas.current && webgl) {
+    if (canvas.current) {
       view = new SwarmView(canvas.current, session, store, {
         attract: (position) => steer(store, { do: 'attract', position, weight }),
         moveGoal: (index, position) => steer(store, { do: 'goal', index, position }),
@@ -101,6 +104,10 @@ export function ScenePage({ session, store }: { session: SceneSession; store: St
       swarm.current = view;
       setScale(`grid ${view.space.gridStep} m`);
       Object.assign(window, { flocklift: { store, swarm: view, series } });
+      requestIdleCallback(() => {
+        setMeans(askForCard());
+        setParts(bringParts());
+      }, { timeout: 500 });
     }
     let said = 0;
     watchLive((look) => {
@@ -127,16 +134,14 @@ export function ScenePage({ session, store }: { session: SceneSession; store: St
       <main class="single">
         <section class="pane flight">
           <canvas ref={canvas} tabIndex={0} aria-label="the running scene" />
-          {webgl && (
-            <div class="overlay">
-              <ViewButtons store={store} film={session.camera !== null} />
-              <span class="tag end">{scale}</span>
-            </div>
-          )}
-          {!webgl && <p class="words">This browser has no WebGL 2, so the scene cannot be drawn. The curves and the sliders work without it.</p>}
+          <div class="overlay">
+            <ViewButtons store={store} film={session.camera !== null} />
+            <span class="tag">{means === 'no WebGL' ? NO_WEBGL : ''}</span>
+            <span class="tag end">{scale}</span>
+          </div>
         </section>
       </main>
-      <LiveCharts series={series} store={store} />
+      {parts ? <parts.LiveCharts series={series} store={store} /> : <div class="charts" />}
       <div class="transport">
         <button class="play" title="pause or go on (space)" aria-label={running ? 'pause' : 'play'}
           onClick={() => run(!running)}>{running ? '❚❚' : '▶'}</button>
@@ -150,7 +155,7 @@ export function ScenePage({ session, store }: { session: SceneSession; store: St
           {PACES.map((p) => <option value={p}>{p}×</option>)}
         </select>
       </div>
-      {panel && <aside><SteerPanel session={session} store={store} /></aside>}
+      {panel && <aside>{parts && <parts.SteerPanel session={session} store={store} />}</aside>}
       <Notices store={store} />
       <Help store={store} keys={keys} mouse={MOUSE} />
     </div>

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where a run's data come from: the server, or what an exported page carries with it.
+// Where a run's data come from: what the page carries with it, all of it if it was exported, else what
+// the first picture needs; and the server.
 
 import { getBlob, getBytes, getJson } from './api';
-import type { RunSession, Series } from './types';
+import type { RunSession, SceneSession, Series, Session } from './types';
 
 export interface Source {
   session: RunSession;
+  first: First;
   window(what: string, first: number, last: number, signal: AbortSignal): Promise<ArrayBuffer>;
   // The frame whose picture stands for `frame`: itself, or one before it of which there is one.
   pictured(frame: number): number;
@@ -15,9 +17,22 @@ export interface Source {
   series(what: string, animal: number): Promise<Series>;
 }
 
-export function serverSource(session: RunSession): Source {
+// The rows of one frame, of a flock or the boxes, as the server packs them.
+interface First {
+  frame: number;
+  rows: Record<string, ArrayBuffer>;
+}
+// What the server puts into the page (bytes in base 64).
+interface Served {
+  session: Session;
+  first: { frame: number; rows: Record<string, string> };
+}
+
+function serverSource(session: RunSession, { frame, rows }: Served['first']): Source {
+  const bytes = Object.entries(rows).map(([what, text]) => [what, bytesOf(text)] as const);
   return {
     session,
+    first: { frame, rows: Object.fromEntries(bytes) },
     window: (what, first, last, signal) =>
       getBytes(`api/window?what=${what}&first=${first}&last=${last}`, signal),
     pictured: (frame) => frame,
@@ -37,19 +52,32 @@ interface Exported {
   series: Series;
 }
 
+// Not in every browser, and not in the compiler's list.
+declare global {
+  interface Uint8ArrayConstructor {
+    fromBase64?(text: string): Uint8Array<ArrayBuffer>;
+  }
+}
 function bytesOf(base64: string): ArrayBuffer {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64).buffer;
   const text = atob(base64);
   const bytes = new Uint8Array(text.length);
   for (let k = 0; k < text.length; k++) bytes[k] = text.charCodeAt(k);
   return bytes.buffer;
 }
 
-export function exportedSource(): Source | null {
+// A run, or the scene that the server simulates.
+export function source(): Source | SceneSession {
   const element = document.getElementById('flocklift-data');
-  if (!element) return null;
-  const data = JSON.parse(element.textContent ?? '') as Exported;
+  const data = JSON.parse(element?.textContent ?? '') as Served | Exported;
+  if ('windows' in data) return exportedSource(data);
+  return data.session.kind === 'run' ? serverSource(data.session, data.first) : data.session;
+}
+
+function exportedSource(data: Exported): Source {
   return {
     session: { ...data.session, exported: true },
+    first: { frame: 0, rows: {} },
     window: (what, first) => {
       const list = data.windows[what] ?? [];
       const found = list[Math.floor(first / data.windowLength)];

@@ -10,7 +10,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Sight } from './birds';
 import { ground } from './colours';
 import { GlPainter } from './glPainter';
-import { drawsInSoftware } from './graphics';
+import { canvasOver, onCard } from './graphics';
 import { centreOf, poseAt } from './lens';
 import { Lines } from './lines';
 import type { Painter, Placed, Shape } from './shape';
@@ -41,6 +41,8 @@ export class Space {
   private view: ViewName = 'orbit';
   private back = '#000000';
   private painter: Painter;
+  picture: HTMLCanvasElement; // that the painter draws
+  private size = [0, 0]; // of the last drawing [CSS px]
   private drawn = 0; // when [ms]
   private rests = false;
   private timer = 0;
@@ -53,7 +55,9 @@ export class Space {
     upIsUp: boolean,
     private redraw: () => void,
   ) {
-    this.painter = drawsInSoftware() ? new SoftPainter(canvas) : new GlPainter(canvas);
+    this.painter = new SoftPainter(canvas);
+    this.picture = canvas;
+    onCard(() => this.drawByCard());
     this.camera.up.set(0, 0, 1);
     // x right, y down, z forward  ->  x right, y forward, z up
     if (!upIsUp) this.world.set(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
@@ -74,9 +78,25 @@ export class Space {
     canvas.addEventListener('pointerup', (e) => {
       if (isCrosshair(e)) this.controls.enabled = this.turns;
     });
-    new ResizeObserver(redraw).observe(canvas);
-    canvas.addEventListener('webglcontextrestored', redraw);
+    new ResizeObserver(() => {
+      if (canvas.clientWidth !== this.size[0] || canvas.clientHeight !== this.size[1]) redraw();
+    }).observe(canvas);
     this.look('orbit', 1);
+  }
+
+  private drawByCard(): void {
+    const over = canvasOver(this.canvas);
+    try {
+      this.painter = new GlPainter(over);
+    } catch {
+      return over.remove(); // it draws no more pictures: the processor goes on
+    }
+    this.picture = over;
+    this.picture.addEventListener('webglcontextrestored', this.redraw);
+    this.redraw();
+  }
+  get isDrawnByProcessor(): boolean {
+    return this.painter instanceof SoftPainter;
   }
 
   // Whether the person turns it, and not what is looked at.
@@ -233,6 +253,7 @@ export class Space {
   render(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
+    this.size = [width, height];
     const inWorld = (shape: Shape): Placed => ({ shape, matrix: this.world.clone().multiply(shape.matrix) });
     const placed = this.shapes.map(inWorld);
     if (this.frustum) placed.push(inWorld(this.frustum.shape));
@@ -245,7 +266,7 @@ export class Space {
   // Of drawn pixels to those of the page. Where the processor draws many of them, they are coarse
   // while the picture changes, and fine once it rests.
   private ratio(pixels: number): number {
-    if (!drawsInSoftware()) return Math.min(devicePixelRatio, 2);
+    if (!this.isDrawnByProcessor) return Math.min(devicePixelRatio, 2);
     const now = performance.now();
     const moves = now - this.drawn < REST && !this.rests;
     this.drawn = now;

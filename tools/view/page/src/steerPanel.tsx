@@ -8,10 +8,8 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { post } from './api';
 import { addKnob, makeGui } from './knobs';
 import { useValue, type Store } from './state';
+import { steer } from './steer';
 import type { SceneSession } from './types';
-
-export const steer = (store: Store, body: unknown): void =>
-  void post('api/steer', body).catch((error: unknown) => store.fail(error));
 
 export function SteerPanel({ session, store }: { session: SceneSession; store: Store }) {
   const host = useRef<HTMLDivElement>(null);
