@@ -6,21 +6,17 @@
 #ifndef FLOCKLIFT_SIMULATE_MEDIA_LIBAV_H_
 #define FLOCKLIFT_SIMULATE_MEDIA_LIBAV_H_
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-#include <libswscale/swscale.h>
-}
-
 #include <memory>
+
+#include "simulate/media/libav_on_demand.h"
 
 namespace flocklift::internal {
 
-template <typename T, void (*Free)(T**)>
+template <typename T, const OnDemand<void(T**)>& Free>
 struct LibavFreer {
   void operator()(T* p) const { Free(&p); }
 };
-template <typename T, void (*Free)(T**)>
+template <typename T, const OnDemand<void(T**)>& Free>
 using LibavOwner = std::unique_ptr<T, LibavFreer<T, Free>>;
 
 using AvInput = LibavOwner<AVFormatContext, avformat_close_input>;
