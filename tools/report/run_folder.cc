@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 constexpr std::array kStages = {"simulate", "track", "reconstruct", "fit", "replay", "evaluate"};
+constexpr const char* kReplay = "replay";  // a folder in that of the run, with a film of its own
 
 Json ReadJson(const fs::path& path) {
   std::ifstream file(path);
@@ -49,9 +50,15 @@ void ReadSummaries(const std::vector<fs::path>& folders, RunFolder* run) {
   }
 }
 
-// The inputs of a stage, as paths that may have been relative to the folder where it ran.
+// The inputs of a stage, as paths that may have been relative to the folder where it ran: most
+// likely one above that of the run.
 std::vector<fs::path> InputsOf(const RunFolder& run, const std::string& stage) {
   std::vector<fs::path> paths;
+  std::vector<fs::path> bases = {"", run.folder};
+  for (fs::path above = fs::canonical(run.folder); above.has_relative_path();) {
+    above = above.parent_path();
+    bases.push_back(above);
+  }
   for (const StageSummary& summary : run.summaries) {
     if (summary.stage != stage || !summary.json.is_object()) continue;
     const Json inputs = summary.json.value("inputs", Json::array());
@@ -59,8 +66,7 @@ std::vector<fs::path> InputsOf(const RunFolder& run, const std::string& stage) {
     for (const Json& input : inputs) {
       if (!input.is_object() || !input.contains("name") || !input["name"].is_string()) continue;
       const fs::path name = input["name"].get<std::string>();
-      paths.push_back(name);
-      paths.push_back(run.folder / name);
+      for (const fs::path& base : bases) paths.push_back(base / name);
       paths.push_back(run.folder / name.filename());
     }
   }
@@ -84,7 +90,9 @@ std::optional<fs::path> FindVideo(const std::vector<fs::path>& folders, const Ru
   for (const fs::path& path : InputsOf(run, "track")) {
     if (path.extension() != ".txt") candidates.push_back(path);  // corrections are no footage
   }
-  for (const fs::path& folder : folders) candidates.push_back(folder / "video.mp4");
+  for (const fs::path& folder : folders) {
+    if (folder.filename() != kReplay) candidates.push_back(folder / "video.mp4");
+  }
   for (const fs::path& path : candidates) {
     std::error_code error;
     if (!path.empty() && fs::exists(path, error)) return path;
@@ -112,7 +120,7 @@ void ReadTables(const fs::path& truth, RunFolder* run) {
     if (!tables.shapes.empty()) ReadShapes(tables.shapes, &*run->tracks);
   }
   run->trajectories = ReadPaths(tables.trajectories);
-  run->replay = ReadPaths(FindTable(run->folder / "replay", "trajectories", run));
+  run->replay = ReadPaths(FindTable(run->folder / kReplay, "trajectories", run));
   run->true_trajectories = ReadPaths(tables.true_trajectories);
   if (truth.empty()) return;
   const fs::path true_tracks = FindTable(truth, "tracks_true", run);
@@ -167,7 +175,7 @@ RunFolder ReadRunFolder(const fs::path& folder, const std::optional<fs::path>& t
   const fs::path parent = fs::canonical(folder).parent_path();
   const fs::path truth =
       truth_given ? *truth_given : FindTruth({folder / "truth", parent / "truth"});
-  std::vector<fs::path> folders = {folder, folder / "replay"};
+  std::vector<fs::path> folders = {folder, folder / kReplay};
   if (!truth.empty()) folders.push_back(truth);
   // A round trip keeps its scores above truth and result.
   const bool is_round_trip = !truth.empty() && fs::equivalent(truth, parent / "truth", ignored);
