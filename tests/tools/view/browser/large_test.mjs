@@ -97,6 +97,19 @@ makeFiles(0);
     assert.ok(Math.abs(depth - depthOf(7, frame)) < 1e-3, `${depth} in frame ${frame}`);
   }
   say('frames are there, wherever they are in the files');
+  // Of the list of animals there is what one sees, and more when one scrolls.
+  const listed = () => page.locator('.animals li').count();
+  const many = await until('the list', async () => {
+    const before = await listed();
+    await page.waitForTimeout(500);
+    return before > 0 && before === (await listed()) ? before : 0;
+  });
+  assert.ok(many < BIRDS / 2, `${many} are listed`);
+  await until('more of it', async () => {
+    await page.locator('aside').evaluate((aside) => aside.scrollTo(0, aside.scrollHeight));
+    return (await listed()) === BIRDS;
+  });
+  say('the list of animals grows as it is scrolled');
   // While somebody drags, a frame that comes is shown, though another is wanted by then. The answers
   // come when the test lets them; on a machine that stands still for a moment the page may have
   // given up a frame before, so there are several tries.

@@ -3,7 +3,7 @@
 //
 // What is drawn, of which flock, and who.
 
-import { useEffect, useMemo, useState } from 'preact/hooks';
+import { useEffect, useMemo, useRef, useState } from 'preact/hooks';
 
 import { colourOf } from './colours';
 import { useNews } from './news';
@@ -11,8 +11,7 @@ import type { Run } from './run';
 import { useParts, useValue, type Ghost } from './state';
 
 const MOST_LISTED = 400; // animals
-const AT_ONCE = 25; // entries of the list that are made in one go
-const LATEST = 2000; // ms that they wait for a moment in which nothing is drawn
+const AT_ONCE = 24; // entries of the list that are made in one go
 
 type Switch = 'boxes' | 'ids' | 'bars' | 'grid';
 const SWITCHES: [Switch, string, string][] = [
@@ -54,14 +53,17 @@ export function LookPanel({ run }: { run: Run }) {
     'hidden');
   const animals = useNews(run, () => run.animals);
   const solved = useNews(run, () => run.versions.after > 0);
-  const [listed, setListed] = useState(0);
+  const [listed, setListed] = useState(AT_ONCE);
+  const end = useRef<HTMLElement>(null);
   const shown = Math.min(animals.length, MOST_LISTED, listed);
   useEffect(() => {
-    // After the pictures, and bit by bit.
-    if (listed >= Math.min(animals.length, MOST_LISTED)) return undefined;
-    let alive = true;
-    void run.clock.drawn.then(() => requestIdleCallback(() => alive && setListed(listed + AT_ONCE), { timeout: LATEST }));
-    return () => void (alive = false);
+    // As far as one sees: hundreds of entries hold up the pictures.
+    if (!end.current || listed >= Math.min(animals.length, MOST_LISTED)) return undefined;
+    const more = new IntersectionObserver((seen) => {
+      if (seen.some((entry) => entry.isIntersecting)) setListed(listed + AT_ONCE);
+    });
+    more.observe(end.current);
+    return () => more.disconnect();
   }, [listed, animals.length]);
   // Made once, so that they are not looked at again whenever the rest of the panel changes.
   const list = useMemo(() => Array.from({ length: shown }, (_, k) =>
@@ -105,6 +107,7 @@ export function LookPanel({ run }: { run: Run }) {
             onClick={() => store.set({ hidden: new Set() })}>show all</button>
         </header>
         <ul>{list}</ul>
+        <i class="end" ref={end} />
         {MOST_LISTED < animals.length && <p class="muted">and {animals.length - MOST_LISTED} more: click them in the pictures.</p>}
       </section>
     </div>
