@@ -16,11 +16,26 @@ namespace {
 constexpr double kMargin = 2;  // beyond reach, so that a frozen neighbourhood stays whole [m]
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-7, kMostDamping = 1e6;
 
+double MeanLogDepth(const Bird& bird) {
+  double sum = 0;
+  for (std::size_t k = 2; k < bird.path.size(); k += 3) sum += bird.path[k];
+  return sum * 3 / static_cast<double>(bird.path.size());
+}
+
+double MeanLogDepth(const std::vector<Bird>& birds) {
+  double sum = 0;
+  for (const Bird& bird : birds) sum += MeanLogDepth(bird);
+  return birds.empty() ? 0 : sum / static_cast<double>(birds.size());
+}
+
 }  // namespace
 
 CoupledFlock::CoupledFlock(const BatchModel& model, std::vector<Bird>* birds,
-                           Eigen::VectorXd* shared)
-    : model_(model), birds_(*birds), shared_(*shared) {
+                           Eigen::VectorXd* shared, const std::optional<Scale>& scale)
+    : model_(model),
+      birds_(*birds),
+      shared_(*shared),
+      scale_(scale.value_or(Scale{MeanLogDepth(*birds), (*shared)[kFlockLogSpeed]})) {
   std::size_t lines = 0;
   Eigen::Index unknowns = 0;
   for (std::size_t i = 0; i < birds_.size(); ++i) {
@@ -43,9 +58,8 @@ CoupledFlock::CoupledFlock(const BatchModel& model, std::vector<Bird>* birds,
   });
   Vec3d sum;
   for (const Knot& s : States()) sum += s.x;
-  usual_log_speed_ = shared_[kFlockLogSpeed];
   forces = FlockForces::Usual((1 / static_cast<double>(std::max<std::size_t>(lines, 1))) * sum,
-                              std::exp(usual_log_speed_),
+                              std::exp(scale_.log_speed),
                               static_cast<double>(present_.size()) * model_.knot_interval);
   forces.up_in_cam = model_.up_in_cam;
   usual_ = forces.unknowns;
@@ -65,16 +79,8 @@ std::vector<CoupledFlock::Knot> CoupledFlock::States() const {
 }
 
 void CoupledFlock::Relinearize() {
-  double common = 0;
-  for (Bird& bird : birds_) {
-    double sum = 0;
-    for (std::size_t k = 2; k < bird.path.size(); k += 3) sum += bird.path[k];
-    bird.reference_depth = std::exp(sum * 3 / static_cast<double>(bird.path.size()));
-    common += std::log(bird.reference_depth) / static_cast<double>(birds_.size());
-  }
-  // A scene that shrinks would have smaller accelerations.
-  if (!common_log_depth_) common_log_depth_ = common;
-  for (Bird& bird : birds_) bird.reference_depth *= std::exp(*common_log_depth_ - common);
+  const double grown = MeanLogDepth(birds_) - scale_.log_depth;
+  for (Bird& bird : birds_) bird.reference_depth = std::exp(MeanLogDepth(bird) - grown);
   const std::vector<Knot> states = States();
   const double reach = forces.Reach() + kMargin;
   may_hear_.assign(lines_.size(), {});
@@ -156,7 +162,7 @@ double CoupledFlock::ForcePriors(Eigen::MatrixXd* matrix, Eigen::VectorXd* gradi
   // Of the target and its steps, in seconds of flight.
   constexpr double kTargetSd = 1, kTargetStepSd = 0.05;
   constexpr double kHeld = 1e-3, kHeldSeparation = 0.02;
-  const double flight = std::exp(usual_log_speed_);
+  const double flight = std::exp(scale_.log_speed);
   double cost = 0;
   // (x_i - x_j - usual) / sd, without x_j where j < 0; places in the border.
   const auto add = [&](int i, int j, double off, double sd) {
@@ -174,13 +180,13 @@ double CoupledFlock::ForcePriors(Eigen::MatrixXd* matrix, Eigen::VectorXd* gradi
   Eigen::VectorXd off = forces.unknowns - usual_;
   off[kLogAlphaS] -= std::log(separation_);
   const int first = model_.shared();
-  add(kFlockLogSpeed, -1, shared_[kFlockLogSpeed] - usual_log_speed_, kHeld);
+  add(kFlockLogSpeed, -1, shared_[kFlockLogSpeed] - scale_.log_speed, kHeld);
   for (int k = 0; k < kForceScalars; ++k) {
     const bool told = k != kLogDrive && k != kLogGoal && k != kLogRange;  // by what birds are
     double sd = (told ? tightness : 1) * kSd[static_cast<std::size_t>(k)];
     if (k == kLogAlphaS && separation_ < 1) sd = kHeldSeparation;
     if (IsLength(k)) {
-      add(first + k, kFlockLogSpeed, off[k] - (shared_[kFlockLogSpeed] - usual_log_speed_), sd);
+      add(first + k, kFlockLogSpeed, off[k] - (shared_[kFlockLogSpeed] - scale_.log_speed), sd);
     } else {
       add(first + k, -1, off[k], sd);
     }

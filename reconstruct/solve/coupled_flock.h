@@ -40,8 +40,18 @@ struct Effort {
 
 class CoupledFlock {
  public:
-  // All stay the caller's; the birds, and shared, move while solving.
-  CoupledFlock(const BatchModel& model, std::vector<Bird>* birds, Eigen::VectorXd* shared);
+  // A flock that grows has larger accelerations, one that is fast other usual forces: costs can be
+  // compared as long as they are told at the same depth and speed.
+  struct Scale {
+    double log_depth = 0;  // mean of all animals' reference depths
+    double log_speed = 0;  // of usual birds
+  };
+  // All stay the caller's; the birds, and shared, move while solving. The scale is that of the
+  // birds as they come, or of another problem to compare with.
+  CoupledFlock(const BatchModel& model, std::vector<Bird>* birds, Eigen::VectorXd* shared,
+               const std::optional<Scale>& scale = std::nullopt);
+
+  const Scale& scale() const { return scale_; }
 
   FlockForces forces;
   MarkovProcess noise{.sd = 2, .time = 0.7};  // of the acceleration beyond the forces [m/s^2, s]
@@ -175,10 +185,9 @@ class CoupledFlock {
   std::vector<Eigen::Index> place_;  // of every animal's first unknown, then of the border
   std::vector<std::vector<std::size_t>> present_;     // animals at every knot of the sequence
   std::vector<std::vector<std::uint32_t>> may_hear_;  // lines, of every line
-  Eigen::VectorXd usual_;                             // unknowns of the forces of usual birds,
-  double usual_log_speed_ = 0;                        // which fly that fast
-  double separation_ = 1;                             // of theirs, below 1 held
-  std::optional<double> common_log_depth_;            // mean of the reference depths, held
+  Scale scale_;
+  Eigen::VectorXd usual_;  // unknowns of the forces of usual birds
+  double separation_ = 1;  // of theirs, below 1 held
   std::vector<Line> lines_;
   std::vector<std::uint32_t> edge_, inside_;  // lines that every line hears
   std::vector<ByOffset> by_edge_;             // of its error, by (x, v) of each on an edge

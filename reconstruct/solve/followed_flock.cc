@@ -8,7 +8,7 @@
 namespace flocklift::internal {
 
 CoupledFlock FollowedFlock::Coupled(const BatchModel& model) {
-  CoupledFlock coupled(model, &birds, &shared);
+  CoupledFlock coupled(model, &birds, &shared, scale);
   coupled.forces.unknowns = forces;
   coupled.noise = noise;
   coupled.Relinearize();
@@ -20,6 +20,7 @@ void FollowedFlock::Take(const CoupledFlock& coupled) {
   for (const Bird& bird : birds) accelerations += 3.0 * bird.knots;
   forces = coupled.forces.unknowns;
   noise = coupled.noise;
+  scale = coupled.scale();
   improbable = coupled.Cost() + accelerations * std::log(noise.sd);
 }
 

@@ -7,6 +7,7 @@
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_FOLLOWED_FLOCK_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "reconstruct/solve/coupled_flock.h"
@@ -17,8 +18,9 @@ struct FollowedFlock {
   std::vector<Bird> birds;
   Eigen::VectorXd shared, forces;
   MarkovProcess noise;
-  double improbable = 0;      // minus log of its probability, but for a constant
-  std::vector<double> apart;  // from the next best start's, by animal [log depth]
+  double improbable = 0;                     // minus log of its probability, but for a constant
+  std::vector<double> apart;                 // from the next best start's, by animal [log depth]
+  std::optional<CoupledFlock::Scale> scale;  // at which that is told
 
   // The problem from where this solution is; it moves `birds` and `shared`.
   CoupledFlock Coupled(const BatchModel& model);

@@ -21,7 +21,7 @@ constexpr Effort kRough{.enough = 0.5, .step = {.share = 3e-2, .most = 60}};
 // Forces and paths from where they are, with the noise that they leave from round to
 // round, at first as much as the batch method's accelerations.
 void FollowFitted(const DynamicsOptions& options, const BatchModel& model, FollowedFlock* flock) {
-  CoupledFlock coupled(model, &flock->birds, &flock->shared);
+  CoupledFlock coupled(model, &flock->birds, &flock->shared, flock->scale);
   coupled.noise = {std::max(options.noise_sd, model.spreads.acceleration.sd), options.noise_time};
   coupled.FitForces(2 * kIterations);
   for (int round = 0; round < options.rounds; ++round) {
@@ -66,7 +66,7 @@ void FollowAnnealed(const DynamicsOptions& options, const BatchModel& model, dou
   constexpr double kCalmer = 0.7, kCalmest = 0.25;
   constexpr int kFreeRounds = 2;
   DrawTogether(together, flock);
-  CoupledFlock coupled(model, &flock->birds, &flock->shared);
+  CoupledFlock coupled(model, &flock->birds, &flock->shared, flock->scale);
   const double noise = std::max(options.noise_sd, model.spreads.acceleration.sd);
   coupled.noise = {noise, options.noise_time};
   coupled.tightness = kTight;
@@ -137,9 +137,10 @@ int Sweeps(std::size_t animals) {
 }  // namespace
 
 FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine& window) {
-  const FollowedFlock start{*window.birds, *window.shared, {}, {}, 0, {}};
+  FollowedFlock start{*window.birds, *window.shared, {}, {}, 0, {}, {}};
   FollowedFlock best = start;
   FollowFitted(options, window.model, &best);
+  start.scale = best.scale;
   FollowedFlock next;
   for (const double together : AnnealedStarts(window.model.use_size, start.birds.size())) {
     FollowedFlock flock = start;

@@ -117,5 +117,31 @@ TEST(DepthMoves, LeadOutOfWhereSettlingEnds) {
   EXPECT_GT(gain, 15);
 }
 
+// A flock that has grown by 2 % has accelerations as much larger. They count for what they were
+// beside the flock that it was, and would count for more by themselves.
+TEST(FollowedFlock, KeepsTheScaleOfItsProbability) {
+  int asked = 0;
+  const FlockSpec spec{.count = 6, .frames = 90};
+  internal::SolveWindow(
+      {}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {}, [&](const WindowToRefine& window) {
+        ++asked;
+        internal::FollowedFlock found = internal::FollowForces({}, window);
+        found.Settle(window.model, 60);
+        internal::FollowedFlock grown = found;
+        for (internal::Bird& bird : grown.birds) {
+          for (std::size_t k = 2; k < bird.path.size(); k += 3) {
+            bird.path[k] += 0.02;
+          }
+        }
+        const auto costs_more = [&] {
+          return grown.Coupled(window.model).Cost() - found.Coupled(window.model).Cost();
+        };
+        const double beside = costs_more();
+        grown.scale.reset();
+        EXPECT_GT(costs_more(), beside + 1);
+      });
+  EXPECT_EQ(asked, 1);
+}
+
 }  // namespace
 }  // namespace flocklift
