@@ -53,7 +53,7 @@ void Fitter::SummarizeWeights(const WhitenedFit& fit) {
   for (const std::string& name : names) positive.push_back(IsPositive(name));
   const std::vector<double> values =
       ProbableWeights(fit.regression, rms, result_.acceleration_sd, positive);
-  u_ = Unexplained(rows, values, whitening_.own_speed);
+  u_ = Unexplained(rows, WeightsOf(values), whitening_.own_speed);
   for (std::size_t c = 0; c < p; ++c) {
     FittedWeight weight;
     weight.name = names[c];

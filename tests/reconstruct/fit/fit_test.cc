@@ -236,6 +236,10 @@ TEST(Fit, RadiiThroughTheirTapersTogetherWithTheWeights) {
   EXPECT_EQ(result.parameters.posterior.correlation.size(), 36U);
   EXPECT_GT(result.worst.sd, result.best.sd);
   EXPECT_NEAR(result.noise_sd, 1, 0.1);
+  // What is left of accelerations over a frame's width, S = 4 steps a frame, is the noise under
+  // their triangle: sd 1 times sqrt((2 S^2 + 1) / (3 S^3)).
+  ASSERT_EQ(result.window, 1);
+  EXPECT_NEAR(result.residual_sd, 0.415, 0.06);
 }
 
 // What is known for its sign alone is no longer called determined where more is asked for.
