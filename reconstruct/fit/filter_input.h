@@ -16,6 +16,14 @@
 
 namespace flocklift {
 
+// What single precision, which flocks fly in and are written in, adds to each component of every
+// position and velocity in every step [m^2, m^2/s^2]. A sum that grows alike is rounded alike, so
+// that it is no noise of independent errors: taken for such, they have to be the largest. Positions
+// count from their mean, since what was recorded far from where its world begins was not rounded.
+struct Rounding {
+  double position = 0, velocity = 0;
+};
+
 class FilterInput {
  public:
   explicit FilterInput(const ObservedFlock& flock);
@@ -35,6 +43,7 @@ class FilterInput {
   int first_frame() const { return first_frame_; }
   int animals() const { return animals_; }
   double dt() const { return dt_; }
+  const Rounding& rounding() const { return rounding_; }
   // Moments of second differences: what a start of q and s is made of. Variance and covariances
   // over one and two frames, per axis [m^2]; NaN without any.
   const std::array<double, 3>& second_differences() const { return second_differences_; }
@@ -43,6 +52,7 @@ class FilterInput {
   std::vector<std::vector<Sighting>> frames_;
   int first_frame_ = 0, animals_ = 0;
   double dt_ = 0;
+  Rounding rounding_;
   std::array<double, 3> second_differences_{};
 };
 

@@ -4,6 +4,7 @@
 #include "reconstruct/fit/flock_filter.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -76,6 +77,7 @@ class Filter {
     for (const auto& sightings : input_.frames()) {
       Predict();
       Correct(frame, sightings);
+      Welcome();
       ++frame;
     }
     return std::move(sweep_);
@@ -84,6 +86,30 @@ class Filter {
  private:
   // Means through the engine's steps, all animals together; covariances each by itself.
   void Predict() {
+    Gather();
+    const std::size_t n = indices_.size();
+    if (n == 0) return;
+    Move();
+    for (std::size_t k = 0; k < n; ++k) {
+      Track& track = tracks_[indices_[k]];
+      track.x = x_[k];
+      track.v = v_[k];
+      if (track.is_limited) continue;  // step by step, in Move
+      if (!track.has_transition || !(track.slope == slopes_[k])) {
+        track.slope = slopes_[k];
+        track.transition = TransitionOver(
+            MakeStateStep(input_.dt(), options_.substeps, q_, input_.rounding(), track.slope),
+            steps_);
+        track.has_transition = true;
+        track.settled = false;
+      }
+      if (track.settled) continue;
+      const Matrix6& step = track.transition.deviation;
+      track.covariance = step * track.covariance * step.transpose() + track.transition.noise;
+    }
+  }
+
+  void Gather() {
     indices_.clear();
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       if (tracks_[i].active) indices_.push_back(i);
@@ -96,24 +122,6 @@ class Filter {
     for (std::size_t k = 0; k < n; ++k) {
       x_[k] = tracks_[indices_[k]].x;
       v_[k] = tracks_[indices_[k]].v;
-    }
-    if (n == 0) return;
-    Move();
-    for (std::size_t k = 0; k < n; ++k) {
-      Track& track = tracks_[indices_[k]];
-      track.x = x_[k];
-      track.v = v_[k];
-      if (track.is_limited) continue;  // step by step, in Move
-      if (!track.has_transition || !(track.slope == slopes_[k])) {
-        track.slope = slopes_[k];
-        track.transition =
-            TransitionOver(MakeStateStep(input_.dt(), options_.substeps, q_, track.slope), steps_);
-        track.has_transition = true;
-        track.settled = false;
-      }
-      if (track.settled) continue;
-      const Matrix6& step = track.transition.deviation;
-      track.covariance = step * track.covariance * step.transpose() + track.transition.noise;
     }
   }
 
@@ -158,7 +166,7 @@ class Filter {
       if (speed <= 0 || !IsNearLimit(*range_, speed, std::sqrt(variance))) return;
       track.is_limited = true;
       track.has_transition = track.settled = false;  // what acts here, acts in this frame alone
-      track.step = MakeStateStep(input_.dt(), options_.substeps, q_, slopes_[k]);
+      track.step = MakeStateStep(input_.dt(), options_.substeps, q_, input_.rounding(), slopes_[k]);
       for (int before = 0; before < step; ++before) {
         Kick(&track);
         Drift(&track);
@@ -168,7 +176,7 @@ class Filter {
     if (speed > 0) {
       const LimitedVelocity limited =
           LimitVelocity(*range_, AsEigen(v_[k]), track.covariance.bottomRightCorner<3, 3>(),
-                        kLeastKick * q_ * input_.dt() / steps_);
+                        kLeastKick * (q_ * input_.dt() / steps_ + input_.rounding().velocity));
       v_[k] = AsVec3(limited.mean);
       if (limited.acts) track.until_forgotten = kForgotten;
       Matrix6 kept = Matrix6::Identity();
@@ -197,6 +205,7 @@ class Filter {
         Update(frame, sighting, &track);
       } else if (last.frame == frame - 1) {
         Enter(sighting.position, last.position, &track);
+        entered_.push_back(static_cast<std::size_t>(sighting.animal));
       }
       track.unseen = 0;
       last = {frame, sighting.position};
@@ -209,6 +218,28 @@ class Filter {
       }
       if (track.unseen > options_.bridged_gap) track.active = false;
     }
+  }
+
+  // The velocity of who has just entered is that of halfway back to where it was seen before. What
+  // the others feel of an error of it no covariance tells: without process noise a filter that
+  // starts with one is misled for frames.
+  void Welcome() {
+    if (entered_.empty()) return;
+    const double since = 0.5 * (options_.substeps > 0 ? 1 - 1.0 / steps_ : 1) * input_.dt();
+    std::vector<Vec3d> before;
+    for (const std::size_t i : entered_) before.push_back(tracks_[i].v);
+    for (int round = 0; round < 2; ++round) {
+      Gather();
+      model_.evaluate(theta_, x_, v_, a_, {});
+      for (std::size_t k = 0, next = 0; k < indices_.size() && next < entered_.size(); ++k) {
+        if (indices_[k] != entered_[next]) continue;
+        Vec3d v = before[next++] + since * a_[k];
+        const double speed = Norm(v);
+        if (range_ && speed > 0) v = std::clamp(speed, range_->low, range_->high) / speed * v;
+        tracks_[indices_[k]].v = v;
+      }
+    }
+    entered_.clear();
   }
 
   // Diffuse before the two positions.
@@ -275,6 +306,7 @@ class Filter {
   std::vector<Track> tracks_;
   std::vector<LastSeen> last_;
   std::vector<std::size_t> indices_;  // of active tracks
+  std::vector<std::size_t> entered_;  // in this frame
   std::vector<Vec3d> x_, v_, a_;
   std::vector<OwnSlope> slopes_;
   std::optional<SpeedRange> range_;

@@ -12,14 +12,16 @@
 // is left out of the gain. Of the reference flock of 20 (equations.md 2b) that costs a bias of 0.1
 // % of the weights, 1.2 % with position noise of 1e-3 m, against standard deviations of 3 to 3.5 %.
 // The process noise acts at every step h of the engine, v += h a + N(0, q h), x += h v, or, in
-// continuous time, as exactly integrated white noise.
+// continuous time, as exactly integrated white noise. A step's rounding (filter_input.h) adds to
+// both: all that is left over where nothing disturbs a flock.
 //
 // Where a speed limit may act, what it makes of a velocity's mean and covariance is taken step by
 // step (limited_velocity.h). The innovations' means are right there to 1e-4 m/s, but they are no
 // Gaussian's: S is an upper bound, and its dependence on the parameters says nothing.
 //
-// An animal enters at its second measured frame in a row, diffuse before, and leaves when it was
-// not measured for longer than `bridged_gap`. World frame, metres, seconds.
+// An animal enters at its second measured frame in a row, diffuse before, with the velocity between
+// the two and what its acceleration has made of that since; it leaves when it was not measured for
+// longer than `bridged_gap`. World frame, metres, seconds.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_FIT_FLOCK_FILTER_H_
 #define FLOCKLIFT_RECONSTRUCT_FIT_FLOCK_FILTER_H_

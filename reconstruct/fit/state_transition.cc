@@ -14,7 +14,8 @@ Matrix3 AsMatrix(const std::array<double, 9>& m) {
 
 }  // namespace
 
-StateStep MakeStateStep(double dt, int substeps, double q, const OwnSlope& slope) {
+StateStep MakeStateStep(double dt, int substeps, double q, const Rounding& rounding,
+                        const OwnSlope& slope) {
   const double h = dt / StepsAFrame(substeps);
   const Matrix3 one = Matrix3::Identity(), dx = AsMatrix(slope.position),
                 dv = AsMatrix(slope.velocity);
@@ -30,6 +31,8 @@ StateStep MakeStateStep(double dt, int substeps, double q, const OwnSlope& slope
     step.kick_noise << h * h / 3 * one, h / 2 * one, h / 2 * one, one;
     step.kick_noise *= q * h;
   }
+  step.kick_noise.topLeftCorner<3, 3>() += rounding.position * one;
+  step.kick_noise.bottomRightCorner<3, 3>() += rounding.velocity * one;
   return step;
 }
 

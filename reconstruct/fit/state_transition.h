@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include "reconstruct/fit/filter_input.h"
 #include "reconstruct/fit/process_model.h"
 
 namespace flocklift {
@@ -26,8 +27,9 @@ struct StateStep {
   Matrix6 kick = Matrix6::Identity(), kick_noise = Matrix6::Zero(), drift = Matrix6::Identity();
 };
 
-// `dt` of a frame, `substeps` of the engine a frame; 0: continuous time.
-StateStep MakeStateStep(double dt, int substeps, double q, const OwnSlope& slope);
+// `dt` of a frame, `substeps` of the engine a frame; 0: continuous time. Every step rounds, too.
+StateStep MakeStateStep(double dt, int substeps, double q, const Rounding& rounding,
+                        const OwnSlope& slope);
 
 // Over a whole frame, no limit in the way.
 struct StateTransition {

@@ -138,6 +138,74 @@ TEST(FlockFilter, ASettledGainCostsNothing) {
               1e-9 * before);
 }
 
+// Two animals on a line, 3 m to either side of their mean, who fly 2 m/s.
+TEST(FilterInput, KnowsWhatSinglePrecisionRounds) {
+  Trajectories seen;
+  for (const double side : {-3.0, 3.0}) {
+    Trajectory& trajectory = seen.trajectories.emplace_back();
+    trajectory.id = side > 0 ? 1 : 2;
+    for (int frame = 1; frame <= 11; ++frame) {
+      TrajectoryPoint& point = trajectory.points.emplace_back();
+      point.frame = frame;
+      point.position = {0, 1000 + side, 0.2 * frame};
+    }
+  }
+  const Rounding rounding = FilterInput(ObservedFlock(seen, 10, 5)).rounding();
+  const double half = std::pow(2.0, -24);  // of neighbouring floats' distance, at 1
+  EXPECT_NEAR(rounding.velocity, half * half * 4 / 3, 1e-9 * half * half);
+  EXPECT_NEAR(rounding.position, half * half * (9 + 0.04 * 10) / 3, 1e-9 * half * half);
+}
+
+TEST(FlockFilter, RoundingIsLeftWithoutNoise) {
+  const FilterInput input(ObservedFlock(FlyLinearFlock(4, 40, 5).seen, 1 / LinearFlock::kDt, 5));
+  const FilterSweep sweep = RunFilter({}, Linear(), {0.05, 0.2}, {.diffusion = 1e-30}, input);
+  const double settled = sweep.innovations.back().covariance[0];
+  EXPECT_GT(settled, 4 * input.rounding().position);  // one of every step
+  EXPECT_LT(settled, 40 * input.rounding().position);
+}
+
+// Without noise all is foreseen from the second frame on, but for how an acceleration changes:
+// the velocity of that frame is not the one between the two.
+TEST(FlockFilter, WhoEntersHasBeenAccelerated) {
+  constexpr int kSteps = 4;
+  constexpr double kDt = 1.0 / 30, kStep = kDt / kSteps, kCohesion = 0.1, kAlignment = 0.3;
+  std::vector<Vec3d> x = {{0, 0, 0}, {3, 1, 0}, {-1, 2, 1}, {0, -2, 2}};
+  std::vector<Vec3d> v = {{2, 0, 0}, {0, -1, 1}, {1, 1, 0}, {-1, 0, 2}};
+  Trajectories seen;
+  seen.fps = 1 / kDt;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    seen.trajectories.push_back({.id = static_cast<Id>(i) + 1, .points = {}});
+  }
+  for (int frame = 1; frame <= 4; ++frame) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      TrajectoryPoint& point = seen.trajectories[i].points.emplace_back();
+      point.frame = frame;
+      point.position = x[i];
+    }
+    for (int step = 0; step < kSteps; ++step) {
+      std::vector<Vec3d> a(x.size());
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        for (std::size_t j = 0; j < x.size(); ++j) {
+          a[i] += kCohesion * (x[j] - x[i]) + kAlignment * (v[j] - v[i]);
+        }
+      }
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        v[i] += kStep * a[i];
+        x[i] += kStep * v[i];
+      }
+    }
+  }
+  const FilterSweep sweep = Sweep(seen, {.diffusion = 1e-6}, {.substeps = kSteps}, {0.1, 0.3});
+  ASSERT_EQ(sweep.innovations.size(), 2 * x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const auto& points = seen.trajectories[i].points;
+    const Vec3d bend = points[2].position - 2.0 * points[1].position + points[0].position;
+    const auto& e = sweep.innovations[i].value;
+    // 3/8 of the bend with the velocity between the frames.
+    EXPECT_LT(Norm(Vec3d{e[0], e[1], e[2]}), 0.03 * Norm(bend)) << i;
+  }
+}
+
 TEST(FlockFilter, TurningTheWorldChangesNothing) {
   Trajectories seen = FlyLinearFlock(3, 60, 4).seen;
   const FlockNoise noise{.diffusion = 5e-3, .position_variance = 1e-8};
