@@ -192,7 +192,10 @@ void Fitter::EstimateStates(WhitenedFit* fit) {
   if (fit->converged) ScoreHeldParameters(options, states, input, paths);
   fit->rho.reset();  // the noise is white
   fit->regression.estimate = states.estimate;
-  fit->regression.sd = states.sd;
+  fit->regression.sd.resize(states.sd.size());
+  for (std::size_t p = 0; p < states.sd.size(); ++p) {
+    fit->regression.sd[p] = std::hypot(states.sd[p], RoundingOf(states.estimate[p]));
+  }
   fit->regression.correlation = states.correlation;
   result_.diffusion = states.noise.diffusion;
   result_.diffusion_sd = states.diffusion_sd;

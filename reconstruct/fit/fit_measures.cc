@@ -156,6 +156,10 @@ NoiseEstimate EstimateNoise(const MotionRows& rows, const std::vector<Vec3d>& u,
   return noise;
 }
 
+double RoundingOf(double value) {
+  return 4 * std::numeric_limits<float>::epsilon() * std::abs(value);
+}
+
 std::vector<double> ChangedShares(const MotionRows& rows, const MotionRows& other) {
   const std::size_t width = rows.terms + 1;
   std::vector<double> changes(rows.terms), squares(rows.terms), shares(rows.terms);

@@ -44,6 +44,10 @@ struct NoiseEstimate {
 NoiseEstimate EstimateNoise(const MotionRows& rows, const std::vector<Vec3d>& u,
                             const std::optional<double>& rho, double dt, double engine_step);
 
+// What a handful of roundings in single precision, in which flocks fly, make of a number: no
+// parameter can be known better.
+double RoundingOf(double value);
+
 // Of each term's mean square, the share by which other positions of the same animals change it:
 // mean |X' - X|^2 / mean |X|^2 over the rows that both have.
 std::vector<double> ChangedShares(const MotionRows& rows, const MotionRows& other);

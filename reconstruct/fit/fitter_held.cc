@@ -9,6 +9,12 @@
 #include "simulate/core/model_terms.h"
 
 namespace flocklift::internal {
+namespace {
+
+// A held value off by this share of itself is right, however well the motion tells.
+constexpr double kRight = 1e-5;
+
+}  // namespace
 
 std::vector<std::string> Fitter::HeldOf(const std::vector<std::string>& names) const {
   std::vector<std::string> held;
@@ -32,7 +38,9 @@ void Fitter::ScoreHeldParameters(const StateSpaceOptions& options, const StateSp
       ScoreHeld(options, MakeProcessModel(model_, all, problem_.walls, around_), states, values,
                 input, paths);
   for (std::size_t k = 0; k < held.size(); ++k) {
-    result_.held.push_back({.name = held[k], .value = values[k], .z = scores[k].z});
+    const double sd = scores[k].z != 0 ? scores[k].change / scores[k].z : 0;
+    const double z = sd > 0 ? scores[k].change / std::hypot(sd, kRight * values[k]) : 0;
+    result_.held.push_back({.name = held[k], .value = values[k], .z = z});
   }
 }
 

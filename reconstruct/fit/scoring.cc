@@ -9,6 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "reconstruct/fit/innovation_cost.h"
+#include "reconstruct/fit/state_transition.h"
 #include "simulate/core/parallel_for.h"
 
 namespace flocklift::internal {
@@ -24,34 +26,10 @@ constexpr double kSmallVariance = 1e-3;    // s0^2, of how far the noise moves i
 constexpr double kNothing = 1e-12;         // an information below this share of the others'
 constexpr double kUnseen = 1e-6;           // ... of a parameter's own, beside the others
 constexpr int kHalvings = 12;
-
-double CostOf(const Vector3& value, const Matrix3& covariance) {
-  const Eigen::LLT<Matrix3> llt(covariance);
-  const Vector3 white = llt.matrixL().solve(value);
-  return 2 * std::log(llt.matrixL().toDenseMatrix().diagonal().prod()) + white.squaredNorm();
-}
-
-// -2 log likelihood of the next sweep, with this one's covariances where a limit acted: what the
-// scoring descends.
-double CostBeside(const FilterSweep& sweep, const FilterSweep& next) {
-  double cost = next.cost;
-  for (std::size_t k = 0; k < sweep.innovations.size(); ++k) {
-    if (!sweep.innovations[k].is_limited) continue;
-    const Vector3 value = ValueOf(next.innovations[k]);
-    cost += CostOf(value, CovarianceOf(sweep.innovations[k])) -
-            CostOf(value, CovarianceOf(next.innovations[k]));
-  }
-  return cost;
-}
+constexpr double kFarTooLarge = 0.1;  // innovations are so much of their covariances: all shrinks
+constexpr int kShrinkings = 10;
 
 }  // namespace
-
-Matrix3 CovarianceOf(const Innovation& i) {
-  const auto& c = i.covariance;
-  Matrix3 s;
-  s << c[0], c[1], c[2], c[1], c[3], c[4], c[2], c[4], c[5];
-  return s;
-}
 
 Scoring::Scoring(const StateSpaceOptions& options, const ProcessModel& model,
                  const std::vector<double>& start, const FilterInput& input,
@@ -74,6 +52,8 @@ Scoring::Scoring(const StateSpaceOptions& options, const ProcessModel& model,
   lowest_ = std::log(smallest_);
   phi_.push_back(std::log(variance + smallest_));
   differences_.assign(phi_.size(), kFirstDifference);
+  lowest_q_ = std::log(kSmallVariance * input.rounding().velocity *
+                       StepsAFrame(options.filter.substeps) / input.dt());
   if (paths_ == nullptr) return;
   phi_.resize(phi_.size() + paths_->size(), 0);
   differences_.resize(phi_.size(), kDifference);
@@ -89,6 +69,7 @@ StateSpaceFit Scoring::Run() {
   }
   fit.status = StateSpaceStatus::kNotConverged;
   for (fit.rounds = 1; fit.rounds <= options_.rounds; ++fit.rounds) {
+    Shrink(&sweep);
     Linearize(sweep);
     const Eigen::VectorXd step = Step();
     const bool small = Largest(step) < options_.accuracy;
@@ -101,6 +82,19 @@ StateSpaceFit Scoring::Run() {
   if (paths_ != nullptr) ObserveInformation();
   Describe(sweep, &fit);
   return fit;
+}
+
+void Scoring::Shrink(FilterSweep* sweep) {
+  for (int k = 0; k < kShrinkings; ++k) {
+    const double square = MeanSquareOf(*sweep);
+    const double change = std::max(std::log(square), lowest_q_ - phi_[p_]);
+    if (!(square < kFarTooLarge && change < 0)) return;
+    phi_[p_] += change;
+    phi_[p_ + 1] += change;
+    lowest_ += change;
+    smallest_ = std::exp(lowest_);
+    *sweep = SweepAt(phi_, std::move(*sweep));
+  }
 }
 
 std::vector<HeldScore> Scoring::Score(const StateSpaceFit& fit, std::size_t first_held) {
@@ -203,6 +197,7 @@ Eigen::VectorXd Scoring::Step() {
   const Eigen::Index size = score_.size();
   const bool at_zero = NoiseAt(phi_).position_variance <= 0;
   free_.assign(static_cast<std::size_t>(size), true);
+  free_[p_] = !(phi_[p_] <= lowest_q_ && score_[static_cast<Eigen::Index>(p_)] >= 0);
   free_[p_ + 1] = !(at_zero && score_[static_cast<Eigen::Index>(p_) + 1] >= 0);
   const Eigen::VectorXd scale = information_.diagonal().cwiseSqrt();
   for (Eigen::Index p = 0; p < size; ++p) {
@@ -269,6 +264,7 @@ bool Scoring::Walk(const Eigen::VectorXd& step, FilterSweep* sweep) {
       const double limit = p < p_ ? std::numeric_limits<double>::infinity() : 3.0;
       phi[p] += std::clamp(share * step[static_cast<Eigen::Index>(p)], -limit, limit);
     }
+    phi[p_] = std::max(phi[p_], lowest_q_);
     phi[p_ + 1] = std::max(phi[p_ + 1], lowest_);
     FilterSweep next = SweepAt(phi, std::move(spare_));
     double cost = CostBeside(*sweep, next);
@@ -301,7 +297,7 @@ void Scoring::Describe(const FilterSweep& sweep, StateSpaceFit* fit) const {
       fit->correlation.push_back(p == r ? 1 : std::isfinite(product) ? shared / product : 0);
     }
   }
-  fit->diffusion_sd = fit->noise.diffusion * sd(p_);
+  fit->diffusion_sd = free_[p_] ? fit->noise.diffusion * sd(p_) : 0;
   fit->position_variance_sd =
       free_[p_ + 1] ? (fit->noise.position_variance + smallest_) * sd(p_ + 1) : 0;
 }

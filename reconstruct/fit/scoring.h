@@ -18,9 +18,6 @@
 
 namespace flocklift::internal {
 
-inline Eigen::Vector3d ValueOf(const Innovation& i) { return {i.value[0], i.value[1], i.value[2]}; }
-Eigen::Matrix3d CovarianceOf(const Innovation& i);
-
 // phi = (theta, log q, log(s^2 + s0^2), z of depth errors).
 class Scoring {
  public:
@@ -35,6 +32,9 @@ class Scoring {
  private:
   FlockNoise NoiseAt(const std::vector<double>& phi) const;
   FilterSweep SweepAt(const std::vector<double>& phi, FilterSweep memory = {}) const;
+  // Where the innovations are far smaller than their covariances, both noises shrink together until
+  // they are not: of a common factor the likeliest is known, while steps of a logarithm are of 1.
+  void Shrink(FilterSweep* sweep);
   // Score and information at phi_.
   void Linearize(const FilterSweep& base);
   // Adds to them what is expected of depth errors, and half the gradient of log det H, by
@@ -61,6 +61,7 @@ class Scoring {
   std::size_t own_;
   std::vector<double> phi_, differences_;
   double smallest_ = 0, lowest_ = 0;  // s0^2 and its logarithm
+  double lowest_q_ = 0;               // log q, likewise, far below what rounding makes
   std::vector<bool> free_;
   Eigen::VectorXd score_, determinant_;
   Eigen::MatrixXd information_, covariance_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "reconstruct/fit/innovation_cost.h"
 #include "reconstruct/fit/scoring.h"
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/rng.h"

@@ -9,7 +9,11 @@
 // eps_p, S_p derivatives by differences of whole sweeps, which see the gain's change too. The sd
 // are those of I^-1. Of innovations that know of a speed limit, which are no Gaussian's, the first
 // term alone is taken, from means that are right (quasi-likelihood: Wedderburn 1974). Where s^2
-// goes to 0 it stays there and is no unknown any more.
+// goes to 0, or q far below what rounding makes, it stays there and is no unknown any more. Boids
+// that nothing disturbs are known to 1e-6 so: of 12 flocks (50 over 10 s, 20 over 4 s) 72
+// parameters, all within 2 of the sd that fit.cc states, which is no less than what rounding makes
+// of a number. From far above a step of -1 in the logarithm of q is all that the scoring knows,
+// however much is too much; both noises then shrink together, by the factor that is likeliest.
 //
 // For a flock that has forgotten its start, I of a drag gamma is (animals - 1) 3 T / (2 gamma), as
 // of a damped velocity that is known without error (of the reference flock, gamma = 20 alignment,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "reconstruct/fit/fit.h"
 #include "tests/reconstruct/fit/flocks.h"
 #include "tests/reconstruct/fit/linear_flock.h"
 
@@ -138,6 +139,39 @@ TEST(StateSpace, IsTheSameAtAnyNumberOfThreads) {
   EXPECT_EQ(one.estimate, three.estimate);
   EXPECT_EQ(one.sd, three.sd);
   EXPECT_EQ(one.noise.diffusion, three.noise.diffusion);
+}
+
+// Boids that nothing disturbs, some of them at their speed limits: what is left is rounding, and
+// all is known but for that.
+TEST(StateSpace, FlocksWithoutNoiseAreKnownButForRounding) {
+  for (const std::uint64_t seed : {3, 5}) {
+    Scene scene = BoidsScene(seed);
+    scene.duration = 3;
+    ModelSpec& boids = scene.species[0].model;
+    for (const char* absent : {"noise", "noise_time", "cruise", "level"}) {
+      boids.parameters[absent] = 0;
+    }
+    boids.parameters["taper"] = 2;
+    FitProblem problem;
+    problem.model = boids;
+    problem.model.parameters["d_s"] *= 1.2;
+    problem.model.parameters["d_v"] *= 0.85;
+    problem.free = {"alpha_s", "alpha_c", "alpha_a", "alpha_b", "d_s", "d_v"};
+    problem.walls = scene.box;
+    FitOptions options;
+    options.substeps = scene.substeps;
+    const FitResult fit = FitModel(options, problem, Fly(scene), scene.fps, 1, 2);
+    ASSERT_TRUE(fit.IsUsable());
+    EXPECT_TRUE(fit.converged);
+    EXPECT_LT(fit.noise_sd, 1e-3);
+    for (const HeldTest& held : fit.held) EXPECT_LT(std::abs(held.z), 3.5) << held.name;
+    for (const FittedWeight& weight : fit.weights) {
+      const double truth = boids.parameters.at(weight.name);
+      EXPECT_TRUE(weight.determined) << weight.name;
+      EXPECT_LT(weight.sd, 1e-4 * truth) << weight.name;
+      EXPECT_LT(std::abs(weight.estimate - truth), 3 * weight.sd) << weight.name;
+    }
+  }
 }
 
 TEST(StateSpace, TooLittleDataIsAStatusAndNonsenseThrows) {
