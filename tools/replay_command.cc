@@ -3,6 +3,8 @@
 
 #include "tools/replay_command.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -21,6 +23,7 @@
 #include "simulate/core/scene_io.h"
 #include "simulate/flock/load_scene.h"
 #include "simulate/render/film.h"
+#include "tools/replay_table.h"
 #include "tools/scene_input.h"
 #include "tools/scene_scenery.h"
 #include "tools/stage.h"
@@ -43,7 +46,8 @@ constexpr double kFirstTimes[] = {0.1, 0.2, 0.5};  // [s]
 bool IsReported(double time, double frame_time, bool last) {
   const auto near = [&](double wanted) { return std::abs(time - wanted) < 0.5 * frame_time; };
   if (last) return true;
-  if (time < 0.9) return std::any_of(std::begin(kFirstTimes), std::end(kFirstTimes), near);
+  if (time < 1 - 0.5 * frame_time)
+    return std::any_of(std::begin(kFirstTimes), std::end(kFirstTimes), near);
   const double unit = std::pow(10, std::floor(std::log10(time + 0.5 * frame_time)));
   return near(unit * std::round(time / unit));
 }
@@ -176,6 +180,9 @@ void RunReplay(const ReplayCommand& command, const CommonOptions& common) {
       {"divergence", DivergenceSeries(result.divergence, *fps, command.replay.alpha < 1)},
       {"statistics", StatisticsSeries(reconstruction, result, *fps)}};
   stage.Finish();
+  if (common.quiet || common.json) return;
+  fmt::print(stderr, "{}",
+             ReplayTable(stage.figures().at("divergence"), stage.figures().at("statistics")));
 }
 
 void AddReplayCommand(CLI::App& app) {
