@@ -25,10 +25,13 @@
 #include "tools/fit_list.h"
 #include "tools/scene_input.h"
 #include "tools/stage.h"
+#include "tools/view/kept_memory.h"
 #include "tools/walls.h"
 
 namespace flocklift {
 namespace {
+
+constexpr int kLargestArray = 32 << 20, kMostKept = 256 << 20;  // that a fit keeps [bytes]
 
 // What NAME=VALUE says.
 double ValueIn(const std::string& text) {
@@ -191,6 +194,7 @@ void PrintTable(const FitResult& result) {
 }  // namespace
 
 void RunFit(const FitCommand& command, const CommonOptions& common) {
+  KeepFreedMemory(kLargestArray, kMostKept);
   if (command.model == kKernelsModel) {
     RunKernelFit(command, common);
     return;

@@ -7,9 +7,9 @@
 
 namespace flocklift {
 
-void KeepFreedMemory() {
-  mallopt(M_MMAP_THRESHOLD, 4 << 20);   // NOLINT(concurrency-mt-unsafe): before any thread
-  mallopt(M_TRIM_THRESHOLD, 64 << 20);  // NOLINT(concurrency-mt-unsafe)
+void KeepFreedMemory(int largest, int most) {
+  mallopt(M_MMAP_THRESHOLD, largest);  // NOLINT(concurrency-mt-unsafe): before any thread
+  mallopt(M_TRIM_THRESHOLD, most);     // NOLINT(concurrency-mt-unsafe)
 }
 
 }  // namespace flocklift
