@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "reconstruct/fit/filter_track.h"
 #include "reconstruct/fit/limited_velocity.h"
 #include "reconstruct/fit/state_transition.h"
 #include "simulate/core/check.h"
@@ -17,11 +18,14 @@
 namespace flocklift {
 namespace {
 
+using internal::Drift;
+using internal::FindGain;
+using internal::Kick;
+using Track = internal::FilterTrack;
+
 using Matrix3 = Eigen::Matrix3d;
-using Gain = Eigen::Matrix<double, 6, 3>;
 using Vector3 = Eigen::Vector3d;
 
-constexpr double kSettled = 1e-12;  // relative change of a covariance that counts as none
 // A speed at its limit is never held for better known than by this share of a step's noise: the
 // rest is tails that are no Gaussian's, and a gain that trusted them would run away.
 constexpr double kLeastKick = 0.2;
@@ -32,25 +36,6 @@ constexpr double kLeastVariance = 1e-6;
 
 Vector3 AsEigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 Vec3d AsVec3(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
-
-// One animal's estimate.
-struct Track {
-  bool active = false;
-  int unseen = 0;  // frames since it was measured
-  Vec3d x, v;
-  Matrix6 covariance = Matrix6::Zero();
-  // What the last frame used, which the next one may use again.
-  bool has_transition = false, settled = false;
-  OwnSlope slope;
-  StateTransition transition;
-  // Of this frame, in which a speed limit acts.
-  bool is_limited = false;
-  int until_forgotten = 0;  // frames for which its covariance is still of one that acted
-  StateStep step;
-  Gain gain = Gain::Zero();
-  Matrix3 innovation_covariance = Matrix3::Zero(), innovation_information = Matrix3::Zero();
-  double log_determinant = 0;
-};
 
 class Filter {
  public:
@@ -187,15 +172,6 @@ class Filter {
     Drift(&track);
   }
 
-  static void Kick(Track* track) {
-    const StateStep& step = track->step;
-    track->covariance = step.kick * track->covariance * step.kick.transpose() + step.kick_noise;
-  }
-  static void Drift(Track* track) {
-    const Matrix6& drift = track->step.drift;
-    track->covariance = drift * track->covariance * drift.transpose();
-  }
-
   void Correct(int frame, const std::vector<FilterInput::Sighting>& sightings) {
     for (Track& track : tracks_) ++track.unseen;
     for (const FilterInput::Sighting& sighting : sightings) {
@@ -257,7 +233,7 @@ class Filter {
   }
 
   void Update(int frame, const FilterInput::Sighting& sighting, Track* track) {
-    if (!track->settled) FindGain(track);
+    if (!track->settled) FindGain(variance_, track);
     const Vector3 innovation = AsEigen(sighting.position - track->x);
     const Eigen::Matrix<double, 6, 1> step = track->gain * innovation;
     track->x += AsVec3(step.head<3>());
@@ -272,24 +248,6 @@ class Filter {
          .covariance = {s(0, 0), s(0, 1), s(0, 2), s(1, 1), s(1, 2), s(2, 2)},
          .is_limited = track->until_forgotten > 0});
     if (track->until_forgotten > 0) --track->until_forgotten;
-  }
-
-  void FindGain(Track* track) const {
-    const Matrix6 predicted = track->covariance;
-    const Matrix3 noise = variance_ * Matrix3::Identity();
-    const Matrix3 s = predicted.topLeftCorner<3, 3>() + noise;
-    const Eigen::LLT<Matrix3> llt(s);
-    const bool known = track->unseen == 1 && track->innovation_covariance.isApprox(s, kSettled) &&
-                       track->has_transition;
-    track->innovation_covariance = s;
-    track->innovation_information = llt.solve(Matrix3::Identity());
-    track->log_determinant = 2 * std::log(llt.matrixL().toDenseMatrix().diagonal().prod());
-    const Gain gain = predicted.leftCols<3>() * track->innovation_information;
-    Matrix6 left = Matrix6::Identity();
-    left.leftCols<3>() -= gain;
-    track->settled = known && gain.isApprox(track->gain, kSettled);
-    track->gain = gain;
-    track->covariance = left * predicted * left.transpose() + gain * noise * gain.transpose();
   }
 
   struct LastSeen {
