@@ -7,10 +7,10 @@
 #include <array>
 #include <type_traits>
 
+#include "reconstruct/fit/near_animals.h"
 #include "reconstruct/fit/scene_terms.h"
 #include "simulate/core/check.h"
 #include "simulate/core/suggest.h"
-#include "simulate/flock/cell_grid.h"
 #include "simulate/flock/model.h"
 #include "simulate/forces/attraction.h"
 #include "simulate/forces/linear.h"
@@ -95,34 +95,15 @@ class BoidsTerms {
   template <typename Pairs>
   void AddPairs(const Pairs& pairs, std::span<const Vec3d> x, std::span<const Vec3d> v,
                 std::span<Vec3d> out) const {
-    Bodies<double> unsorted, sorted;
-    unsorted.Resize(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      unsorted.Set(i, x[i], v[i]);
-      unsorted.agent[i] = static_cast<std::uint32_t>(i);
-    }
-    CellGrid<double> grid;
-    const double reach = Reach(parameters_);
-    grid.Sort(unsorted, reach, &sorted);
-    const auto view = grid.view();
-    for (int row = 0; row < view.RowCount(); ++row) {
-      const int b = 1 + row % view.ny, c = 1 + row / view.ny;
-      for (int a = 1; a <= view.nx; ++a) {
-        const std::uint32_t begin = view.start[view.Cell(a, b, c)];
-        const std::uint32_t end = view.start[view.Cell(a, b, c) + 1];
-        for (std::uint32_t i = begin; i < end; ++i) {
+    internal::ForEachAnimal(
+        x, v, Reach(parameters_), [&](std::uint32_t animal, const auto& others) {
           typename Pairs::Sums sums;
-          const Vec3d xi = sorted.Position(i), vi = sorted.Velocity(i);
-          const auto own = pairs.For(vi);
-          CellGrid<double>::ForEachRun(view, a, a, b, c,
-                                       [&](std::uint32_t first, std::uint32_t last) {
-                                         for (std::uint32_t j = first; j < last; ++j) {
-                                           const Vec3d dx = sorted.Position(j) - xi;
-                                           if (j == i || SquaredNorm(dx) > reach * reach) continue;
-                                           sums += own.Pair(dx, sorted.Velocity(j) - vi);
-                                         }
-                                       });
-          Vec3d* const to = &out[sorted.agent[i] * columns_];
+          const Vec3d& own_velocity = v[animal];
+          const auto own = pairs.For(own_velocity);
+          others([&](std::uint32_t /*other*/, const Vec3d& dx, const Vec3d& velocity) {
+            sums += own.Pair(dx, velocity - own_velocity);
+          });
+          Vec3d* const to = &out[animal * columns_];
           auto p = pairs;
           p.separation.gain = separation_.gain;
           p.cohesion.gain = cohesion_.gain;
@@ -130,9 +111,7 @@ class BoidsTerms {
           to[separation_.column] += Separation::Finish(p.separation, sums.separation);
           to[cohesion_.column] += Cohesion::Finish(p.cohesion, sums.cohesion);
           to[alignment_.column] += Alignment::Finish(p.alignment, sums.alignment);
-        }
-      }
-    }
+        });
   }
 
   BoidsParameters<double> parameters_;  // in seconds

@@ -10,9 +10,9 @@
 #include <utility>
 #include <variant>
 
+#include "reconstruct/fit/near_animals.h"
 #include "reconstruct/fit/term_at.h"
 #include "simulate/core/model_terms.h"
-#include "simulate/flock/cell_grid.h"
 
 namespace flocklift {
 namespace {
@@ -88,34 +88,13 @@ std::vector<std::vector<std::uint32_t>> Near(std::span<const Vec3d> x, std::span
                                              double reach) {
   std::vector<std::vector<std::uint32_t>> near(x.size());
   if (!(reach > 0)) return near;
-  Bodies<double> unsorted, sorted;
-  unsorted.Resize(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    unsorted.Set(i, x[i], v[i]);
-    unsorted.agent[i] = static_cast<std::uint32_t>(i);
-  }
-  CellGrid<double> grid;
-  grid.Sort(unsorted, reach, &sorted);
-  const auto view = grid.view();
-  for (int row = 0; row < view.RowCount(); ++row) {
-    const int b = 1 + row % view.ny, c = 1 + row / view.ny;
-    for (int a = 1; a <= view.nx; ++a) {
-      const std::uint32_t begin = view.start[view.Cell(a, b, c)];
-      const std::uint32_t end = view.start[view.Cell(a, b, c) + 1];
-      for (std::uint32_t i = begin; i < end; ++i) {
-        std::vector<std::uint32_t>& of = near[sorted.agent[i]];
-        CellGrid<double>::ForEachRun(view, a, a, b, c,
-                                     [&](std::uint32_t first, std::uint32_t last) {
-                                       for (std::uint32_t j = first; j < last; ++j) {
-                                         const Vec3d dx = sorted.Position(j) - sorted.Position(i);
-                                         if (j != i && SquaredNorm(dx) <= reach * reach)
-                                           of.push_back(sorted.agent[j]);
-                                       }
-                                     });
-        std::sort(of.begin(), of.end());
-      }
-    }
-  }
+  internal::ForEachAnimal(x, v, reach, [&](std::uint32_t animal, const auto& others) {
+    std::vector<std::uint32_t>& of = near[animal];
+    others([&](std::uint32_t other, const Vec3d& /*dx*/, const Vec3d& /*velocity*/) {
+      of.push_back(other);
+    });
+    std::sort(of.begin(), of.end());
+  });
   return near;
 }
 
