@@ -232,6 +232,53 @@ await press('Enter');
 await until('the animal', async () => /^add 40 \S+ \S+\n$/.test(corrections()));
 await press('z');
 await until('the undo', async () => corrections() === '');
+// A track is split, its parts are joined, a track is deleted; undone, it is there again.
+const seen = () => page.evaluate(() => window.flocklift.run.animals.filter(
+  (_, animal) => window.flocklift.footage.onScreen(animal)));
+const isSeen = async (animal, wanted) => (await seen()).includes(animal) === wanted;
+const originally = await seen();
+const whole = originally[0];
+const select = (one, other) => page.evaluate(([first, second]) => {
+  const { run } = window.flocklift;
+  run.store.set({ selected: run.indexOf(first), second: second ? run.indexOf(second) : -1 });
+}, [one, other]);
+await select(whole);
+await press('c');
+await until('two parts', () => isSeen(whole, false));
+assert.equal(corrections(), `split ${whole} 40\n`);
+const part = (await seen()).find((animal) => !originally.includes(animal));
+await select(whole, part);
+await press('j');
+await until('one again', () => isSeen(whole, true));
+assert.equal(corrections(), `split ${whole} 40\njoin ${whole} ${part}\n`);
+for (let k = 0; k < 2; k++) await press('z');
+await until('the undo', async () => corrections() === '');
+await select(whole);
+await press('Delete');
+await until('one less', () => isSeen(whole, false));
+assert.equal(corrections(), `delete ${whole}\n`);
+await press('z');
+await until('the undo', () => isSeen(whole, true));
+assert.equal(corrections(), '');
+assert.deepEqual(await seen(), originally);
+say('split, join and delete, undone');
+
+// An animal that is hidden is in neither list nor picture until it is shown again.
+await page.evaluate(() => window.flocklift.run.store.set({ selected: 0 }));
+const shown = await page.evaluate(() => {
+  window.flocklift.run.store.set({ selected: -1 });
+  window.flocklift.footage.draw();
+  const whole = window.flocklift.footage.sheet.toDataURL();
+  window.flocklift.run.store.set({ selected: 0 });
+  return whole;
+});
+await press('h');
+assert.deepEqual(await page.evaluate(() => [...window.flocklift.run.store.get().hidden]), [0]);
+assert.notEqual(await picture(), shown);
+await page.evaluate(() => window.flocklift.run.store.set({ hidden: new Set() }));
+assert.equal(await picture(), shown);
+say('hiding');
+
 // It selects and draws as the mouse does.
 await press('k');
 assert.equal(await page.locator('.film .crosshair').count(), 1);
