@@ -44,11 +44,10 @@ CoupledFlock::CoupledFlock(const BatchModel& model, std::vector<Bird>* birds,
     lines += static_cast<std::size_t>(bird.knots);
     place_.push_back(unknowns);
     unknowns += bird.unknowns() + kOwnUnknowns;
-    const std::size_t end = static_cast<std::size_t>(bird.first_knot + bird.knots);
+    const std::size_t first = static_cast<std::size_t>(bird.first_knot);
+    const std::size_t end = first + static_cast<std::size_t>(bird.knots);
     if (present_.size() < end) present_.resize(end);
-    for (int k = 0; k < bird.knots; ++k) {
-      present_[static_cast<std::size_t>(bird.first_knot + k)].push_back(i);
-    }
+    for (std::size_t time = first; time < end; ++time) present_[time].push_back(i);
   }
   place_.push_back(unknowns);
   lines_.resize(lines);

@@ -25,7 +25,7 @@ namespace {
 // flock's unknowns.
 Eigen::MatrixXd EstimateSpreads(const Spreads& guess, bool size_spread, BatchState* state,
                                 BatchSolver* solver) {
-  const Eigen::MatrixXd covariance = solver->Linearize();
+  Eigen::MatrixXd covariance = solver->Linearize();
   constexpr double kInterval = 0.5;  // between the errors that are looked at [s]
   const int stride =
       std::max(1, static_cast<int>(std::lround(kInterval / state->model.knot_interval)));
@@ -148,16 +148,17 @@ SolvedPoint PointAt(const BatchModel& model, const Bird& bird, const Bird::Place
   const std::array<double, 4> curves = SplineCurves(s);
   const CameraMotion camera =
       model.camera.At((bird.first_knot + place.interval + s) * model.knot_interval);
-  for (int a = 0; a < 4; ++a) {
-    q.x += place.weights[a] * c[3 * a];
-    q.y += place.weights[a] * c[3 * a + 1];
-    q.l += place.weights[a] * c[3 * a + 2];
-    q.dx += place.slopes[a] * c[3 * a];
-    q.dy += place.slopes[a] * c[3 * a + 1];
-    q.dl += place.slopes[a] * c[3 * a + 2];
-    q.ddx += curves[a] * rate * rate * c[3 * a];
-    q.ddy += curves[a] * rate * rate * c[3 * a + 1];
-    q.ddl += curves[a] * rate * rate * c[3 * a + 2];
+  for (std::size_t a = 0; a < 4; ++a, c += 3) {
+    const double curve = curves[a] * rate * rate;
+    q.x += place.weights[a] * c[0];
+    q.y += place.weights[a] * c[1];
+    q.l += place.weights[a] * c[2];
+    q.dx += place.slopes[a] * c[0];
+    q.dy += place.slopes[a] * c[1];
+    q.dl += place.slopes[a] * c[2];
+    q.ddx += curve * c[0];
+    q.ddy += curve * c[1];
+    q.ddl += curve * c[2];
   }
   const double z = std::exp(q.l);
   return {.position_in_cam = {z * q.x, z * q.y, z},
@@ -168,7 +169,7 @@ SolvedPoint PointAt(const BatchModel& model, const Bird& bird, const Bird::Place
 // Points with the posterior of their depths; the common scale's own sd comes from the posterior of
 // the mean log depth of all sightings. Returns the covariance of the flock's unknowns.
 Eigen::MatrixXd ReadOut(BatchState* state, BatchSolver* solver, BatchResult* result) {
-  const Eigen::MatrixXd covariance = solver->Linearize();
+  Eigen::MatrixXd covariance = solver->Linearize();
   result->paths.resize(state->birds.size());
   double rows = 0;
   for (const Bird& bird : state->birds) rows += static_cast<double>(bird.places.size());
