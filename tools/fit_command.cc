@@ -22,9 +22,9 @@
 #include "tools/fit_figures.h"
 #include "tools/fit_kernels.h"
 #include "tools/fit_list.h"
+#include "tools/kept_memory.h"
 #include "tools/scene_input.h"
 #include "tools/stage.h"
-#include "tools/view/kept_memory.h"
 #include "tools/walls.h"
 
 namespace flocklift {

@@ -16,10 +16,10 @@
 
 #include "simulate/core/atomic_file.h"
 #include "simulate/core/check.h"
+#include "tools/kept_memory.h"
 #include "tools/view/export_page.h"
 #include "tools/view/folder_view.h"
 #include "tools/view/http_server.h"
-#include "tools/view/kept_memory.h"
 #include "tools/view/page_files.h"
 #include "tools/view/scene_view.h"
 

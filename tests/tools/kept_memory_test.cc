@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "tools/view/kept_memory.h"
+#include "tools/kept_memory.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

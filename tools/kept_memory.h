@@ -6,8 +6,8 @@
 // of an update of a running scene of 10 000 animals, five times what sending it takes. So does a
 // fit with arrays of some ten megabytes.
 
-#ifndef FLOCKLIFT_TOOLS_VIEW_KEPT_MEMORY_H_
-#define FLOCKLIFT_TOOLS_VIEW_KEPT_MEMORY_H_
+#ifndef FLOCKLIFT_TOOLS_KEPT_MEMORY_H_
+#define FLOCKLIFT_TOOLS_KEPT_MEMORY_H_
 
 namespace flocklift {
 
@@ -18,4 +18,4 @@ void KeepFreedMemory(int largest = 4 << 20, int most = 64 << 20);
 
 }  // namespace flocklift
 
-#endif  // FLOCKLIFT_TOOLS_VIEW_KEPT_MEMORY_H_
+#endif  // FLOCKLIFT_TOOLS_KEPT_MEMORY_H_
