@@ -91,7 +91,7 @@ std::optional<fs::path> FindVideo(const std::vector<fs::path>& folders, const Ru
     if (path.extension() != ".txt") candidates.push_back(path);  // corrections are no footage
   }
   for (const fs::path& folder : folders) {
-    if (folder.filename() != kReplay) candidates.push_back(folder / "video.mp4");
+    if (folder != run.folder / kReplay) candidates.push_back(folder / "video.mp4");
   }
   for (const fs::path& path : candidates) {
     std::error_code error;

@@ -46,5 +46,13 @@ TEST_F(RunFolderTest, TheFilmOfTheReplayIsNotWhatWasTracked) {
   EXPECT_FALSE(ReadRunFolder(Result(), std::nullopt, std::nullopt, true).video);
 }
 
+TEST_F(RunFolderTest, AReplayThatIsLookedAtItselfHasItsFilm) {
+  const fs::path replay = Result() / "replay";
+  WriteTextFile(replay / "trajectories.csv", "frame,id,x,y,z\n1,1,0,0,0\n");
+  const RunFolder run = ReadRunFolder(replay, std::nullopt, std::nullopt, true);
+  ASSERT_TRUE(run.video);
+  EXPECT_TRUE(fs::equivalent(*run.video, replay / "video.mp4"));
+}
+
 }  // namespace
 }  // namespace flocklift
