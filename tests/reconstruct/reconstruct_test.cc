@@ -324,8 +324,7 @@ TEST_F(Twin, FragmentsEnterAndLeave) {
   EXPECT_GT(least, result.trajectories.trajectories[0].points[5].sd_depth);
 }
 
-// A camera that is panned after the flock by hand, walks along and climbs: world positions come out
-// as with one that stands.
+// Panned after the flock by hand, walking along and climbing.
 Camera CarriedCamera(const FlockSpec& flock) {
   Camera moving = WatchingCamera();
   moving.cam_from_world.reset();
@@ -339,6 +338,7 @@ Camera CarriedCamera(const FlockSpec& flock) {
   return moving;
 }
 
+// World positions come out as with a camera that stands.
 TEST_F(Twin, MovingCameras) {
   const Camera moving = CarriedCamera(flock_);
   const Tracks seen = Observe(flock_, {}, truth_, moving);

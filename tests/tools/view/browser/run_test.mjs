@@ -263,8 +263,7 @@ assert.equal(corrections(), '');
 assert.deepEqual(await seen(), originally);
 say('split, join and delete, undone');
 
-// An animal that is hidden is in neither list nor picture until it is shown again.
-await page.evaluate(() => window.flocklift.run.store.set({ selected: 0 }));
+// An animal that is hidden is not in the picture until it is shown again.
 const shown = await page.evaluate(() => {
   window.flocklift.run.store.set({ selected: -1 });
   window.flocklift.footage.draw();
