@@ -15,16 +15,13 @@ namespace {
 constexpr std::size_t kBucketsPerAnimal = 1;
 constexpr std::size_t kLeastBuckets = 64;
 constexpr std::size_t kPadding = 16;
-constexpr std::int64_t kGrain = 128;  // animals a chunk of work
 
 }  // namespace
 
 template <typename T>
 void CloseTable<T>::Sort(const Company<T>& company) {
-  using Animals = std::vector<typename Company<T>::Animal>;
-  const std::vector<Animals>& found = company.found();
-  std::size_t n = 0;
-  for (const Animals& animals : found) n += animals.size();
+  const auto& found = company.found();
+  const std::size_t n = found.size();
   const std::size_t buckets = std::bit_ceil(std::max(kBucketsPerAnimal * n, kLeastBuckets));
   mask_ = static_cast<std::uint32_t>(buckets - 1);
   across_y_ = company.across_y();
@@ -34,11 +31,8 @@ void CloseTable<T>::Sort(const Company<T>& company) {
   animal_.resize(n);
   low_.resize(n);
 
-  // On one thread: what two fill by turns lies on the same cache lines.
   next_.assign(buckets, 0);
-  for (const Animals& animals : found) {
-    for (const auto& animal : animals) ++next_[animal.cell & mask_];
-  }
+  for (const auto& animal : found) ++next_[animal.cell & mask_];
   std::uint32_t sum = 0;
   for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
     const std::uint32_t count = next_[bucket];
@@ -46,25 +40,23 @@ void CloseTable<T>::Sort(const Company<T>& company) {
     sum += count;
   }
   start_[buckets] = start_[buckets + 1] = sum;
-  for (const Animals& animals : found) {
-    for (const auto& animal : animals) {
-      const std::uint32_t to = next_[animal.cell & mask_]++;
-      x_[to] = animal.x;
-      y_[to] = animal.y;
-      z_[to] = animal.z;
-      room_[to] = animal.room;
-      animal_[to] = animal.animal;
-      low_[to] = animal.lowest;
-    }
+  for (const auto& animal : found) {
+    const std::uint32_t to = next_[animal.cell & mask_]++;
+    x_[to] = animal.x;
+    y_[to] = animal.y;
+    z_[to] = animal.z;
+    room_[to] = animal.room;
+    animal_[to] = animal.animal;
+    low_[to] = animal.lowest;
   }
 }
 
 template <typename T>
-void CloseTable<T>::AppendPairs(std::uint32_t first, std::vector<ClosePair<T>>* pairs) const {
-  const std::size_t before = pairs->size();
+void CloseTable<T>::AppendPairs(std::uint32_t first) {
+  const std::size_t before = pairs_.size();
   // Two of the eight cells may share a bucket.
   const auto has = [&](std::uint32_t j) {
-    return std::any_of(pairs->begin() + static_cast<std::ptrdiff_t>(before), pairs->end(),
+    return std::any_of(pairs_.begin() + static_cast<std::ptrdiff_t>(before), pairs_.end(),
                        [j](const ClosePair<T>& pair) { return pair.second == j; });
   };
   const auto look_through = [&](std::uint32_t begin, std::uint32_t end) {
@@ -73,7 +65,7 @@ void CloseTable<T>::AppendPairs(std::uint32_t first, std::vector<ClosePair<T>>* 
       const T squared = way.x * way.x + way.y * way.y + way.z * way.z;
       const T distance = room_[first] + room_[j];
       if (squared < distance * distance && !has(j)) {
-        pairs->push_back({first, j, way, squared, distance});
+        pairs_.push_back({first, j, way, squared, distance});
       }
     }
   };
@@ -85,26 +77,18 @@ void CloseTable<T>::AppendPairs(std::uint32_t first, std::vector<ClosePair<T>>* 
 }
 
 template <typename T>
-void CloseTable<T>::FindPairs(ThreadPool* pool) {
-  const auto n = static_cast<std::int64_t>(animal_.size());
-  const auto chunks = static_cast<std::size_t>((n + kGrain - 1) / kGrain);
-  has_.resize(chunks);
-  pairs_.resize(chunks);
-  pool->For(0, n, kGrain, [&](std::int64_t first, std::int64_t last) {
-    const auto a = static_cast<std::uint32_t>(first), b = static_cast<std::uint32_t>(last);
-    std::vector<ClosePair<T>>& pairs = pairs_[static_cast<std::size_t>(first / kGrain)];
-    pairs.clear();
-    if constexpr (std::is_same_v<T, float>) {
-      std::vector<std::uint32_t>& has = has_[static_cast<std::size_t>(first / kGrain)];
-      has.resize(kGrain);
-      const CloseJob job{x_.data(),     y_.data(), z_.data(), room_.data(), low_.data(),
-                         start_.data(), across_y_, across_z_, mask_};
-      const std::uint32_t count = FastestSwarmKernel().close(job, a, b, has.data());
-      for (std::uint32_t k = 0; k < count; ++k) AppendPairs(has[k], &pairs);
-    } else {
-      for (std::uint32_t k = a; k < b; ++k) AppendPairs(k, &pairs);
-    }
-  });
+void CloseTable<T>::FindPairs() {
+  const auto n = static_cast<std::uint32_t>(animal_.size());
+  pairs_.clear();
+  if constexpr (std::is_same_v<T, float>) {
+    has_.resize(n);
+    const CloseJob job{x_.data(),     y_.data(), z_.data(), room_.data(), low_.data(),
+                       start_.data(), across_y_, across_z_, mask_};
+    const std::uint32_t count = FastestSwarmKernel().close(job, 0, n, has_.data());
+    for (std::uint32_t k = 0; k < count; ++k) AppendPairs(has_[k]);
+  } else {
+    for (std::uint32_t k = 0; k < n; ++k) AppendPairs(k);
+  }
 }
 
 template class CloseTable<float>;

@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulate/core/parallel_for.h"
 #include "simulate/flock/company.h"
 #include "simulate/flock/crowd.h"
 
@@ -27,23 +26,22 @@ class CloseTable {
   // Sorts those with company.
   void Sort(const Company<T>& company);
   // The pairs nearer than the sum of their rooms, in an order that depends on the positions alone.
-  void FindPairs(ThreadPool* pool);
+  void FindPairs();
 
-  // By chunk of animals.
-  const std::vector<std::vector<ClosePair<T>>>& pairs() const { return pairs_; }
+  const std::vector<ClosePair<T>>& pairs() const { return pairs_; }
   // Which animal, counted through all crowds, is at a place of the sort.
   std::uint32_t Animal(std::uint32_t place) const { return animal_[place]; }
 
  private:
-  void AppendPairs(std::uint32_t first, std::vector<ClosePair<T>>* pairs) const;
+  void AppendPairs(std::uint32_t first);
 
   std::uint32_t mask_ = 0, across_y_ = 0, across_z_ = 0;
-  std::vector<std::uint32_t> next_;              // place in each bucket, while sorting
-  std::vector<std::uint32_t> start_;             // of each bucket's run; at the end twice the end
-  std::vector<T> x_, y_, z_, room_;              // sorted, padded
-  std::vector<std::uint32_t> animal_, low_;      // sorted: who it is, the lowest of its eight cells
-  std::vector<std::vector<std::uint32_t>> has_;  // animals with somebody too near behind, by chunk
-  std::vector<std::vector<ClosePair<T>>> pairs_;
+  std::vector<std::uint32_t> next_;          // place in each bucket, while sorting
+  std::vector<std::uint32_t> start_;         // of each bucket's run; at the end twice the end
+  std::vector<T> x_, y_, z_, room_;          // sorted, padded
+  std::vector<std::uint32_t> animal_, low_;  // sorted: who it is, the lowest of its eight cells
+  std::vector<std::uint32_t> has_;           // animals with somebody too near behind
+  std::vector<ClosePair<T>> pairs_;
 };
 
 extern template class CloseTable<float>;

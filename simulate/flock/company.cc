@@ -17,11 +17,8 @@ namespace {
 constexpr double kCellPerReach = 2.1;  // twice, and round-off
 constexpr std::size_t kBitsPerAnimal = 64;
 constexpr std::uint32_t kLeastBits = 512;
-constexpr double kWidest = 1e6;  // cells; a flock wider than that is numbered without order
-constexpr std::size_t kLeastShare = 2048;  // animals, below which no thread has bits of its own
-constexpr std::size_t kMostShares = 16;
-constexpr std::size_t kManyAnimals = std::size_t{1} << 16U;  // whose bits fill part of a large page
-constexpr std::size_t kBlock = 8;                            // words that are joined at once
+constexpr double kWidest = 1e6;        // cells; a flock wider than that is numbered without order
+constexpr std::size_t kMoreBytes = 8;  // the first again, and what kernels may read
 constexpr std::uint32_t kHashY = 0x9E3779B1U, kHashZ = 0x85EBCA77U;  // odd
 
 template <typename T>
@@ -39,42 +36,14 @@ std::uint32_t Floor(T u) {
   return static_cast<std::uint32_t>(cut - (static_cast<T>(cut) > kept ? 1 : 0));
 }
 
-const std::uint8_t* Bytes(const std::pmr::vector<std::uint64_t>& words) {
-  return reinterpret_cast<const std::uint8_t*>(words.data());
-}
-std::uint8_t* Bytes(std::pmr::vector<std::uint64_t>* words) {
-  return reinterpret_cast<std::uint8_t*>(words->data());
-}
-
-// A block of words to which the bits of others are added; those that both have go to `shared` by
-// number.
-void JoinBlock(std::size_t first, const std::uint64_t* one, const std::uint64_t* other,
-               std::uint64_t* to, std::vector<std::uint32_t>* shared) {
-  std::uint64_t both[kBlock], any = 0;
-  for (std::size_t k = 0; k < kBlock; ++k) {
-    both[k] = one[first + k] & other[first + k];
-    any |= both[k];
-    to[first + k] = one[first + k] | other[first + k];
-  }
-  for (std::size_t k = 0; k < kBlock && any != 0; ++k) {
-    for (std::uint64_t left = both[k]; left != 0; left &= left - 1) {
-      shared->push_back(static_cast<std::uint32_t>(64 * (first + k)) +
-                        static_cast<std::uint32_t>(std::countr_zero(left)));
-    }
-  }
-}
-
-// fn(crowd, first, last, before) for pieces of at most kCrowdGrain of the animals first .. last -
-// 1, counted through all crowds; `before` come before the crowd.
+// fn(crowd, first, last, before) for pieces of at most kCrowdGrain animals; `before`, counted
+// through all crowds, come before the crowd.
 template <typename T, typename Function>
-void ForEachPiece(std::span<const Crowd<T>> crowds, std::size_t first, std::size_t last,
-                  const Function& fn) {
+void ForEachPiece(std::span<const Crowd<T>> crowds, const Function& fn) {
   std::size_t before = 0;
   for (const Crowd<T>& crowd : crowds) {
-    const std::size_t end = std::clamp(last, before, before + crowd.size) - before;
-    for (std::size_t k = std::clamp(first, before, before + crowd.size) - before; k < end;
-         k += kCrowdGrain) {
-      fn(crowd, k, std::min<std::size_t>(k + kCrowdGrain, end), before);
+    for (std::size_t k = 0; k < crowd.size; k += kCrowdGrain) {
+      fn(crowd, k, std::min<std::size_t>(k + kCrowdGrain, crowd.size), before);
     }
     before += crowd.size;
   }
@@ -134,66 +103,43 @@ void Company<T>::NumberLattice(const CrowdBox<T>& box, T reach, std::size_t anim
 }
 
 template <typename T>
-void Company<T>::SetBits(std::span<const Crowd<T>> crowds, std::size_t first, std::size_t last,
-                         Bits* own) const {
-  own->words.assign(static_cast<std::size_t>(mask_) / 64 + 2, 0);
-  own->shared.clear();
-  std::uint8_t* const bits = Bytes(&own->words);
-  ForEachPiece(crowds, first, last,
-               [&](const Crowd<T>& crowd, std::size_t begin, std::size_t end, std::size_t) {
-                 std::uint32_t cell[kCrowdGrain];
-                 Number(crowd, begin, end, cell);
-                 for (std::size_t n = 0; n < end - begin; ++n) {
-                   const std::uint32_t bit = cell[n] & mask_;
-                   const unsigned had = bits[bit / 8], one = 1U << bit % 8;
-                   bits[bit / 8] = static_cast<std::uint8_t>(had | one);
-                   if ((had & one) != 0) own->shared.push_back(bit);
-                 }
-               });
-}
-
-template <typename T>
-void Company<T>::Join(std::size_t share) {
-  std::vector<std::uint32_t>& shared = shared_[share];
-  Words& joined = joined_[share];
-  shared.clear();
-  joined.resize(bits_[0].words.size());
-  const std::uint64_t* one = bits_[0].words.data();
-  for (std::size_t k = 1; k < shared_.size(); ++k) {
-    for (std::size_t word = 0; word < joined.size() - 1; word += kBlock) {
-      JoinBlock(word, one, bits_[k].words.data(), joined.data(), &shared);
+void Company<T>::SetBits(std::span<const Crowd<T>> crowds) {
+  bits_.assign((static_cast<std::size_t>(mask_) + 1) / 8 + kMoreBytes, 0);
+  shared_.clear();
+  std::uint8_t* const bits = bits_.data();
+  ForEachPiece(crowds, [&](const Crowd<T>& crowd, std::size_t begin, std::size_t end, std::size_t) {
+    std::uint32_t cell[kCrowdGrain];
+    Number(crowd, begin, end, cell);
+    for (std::size_t n = 0; n < end - begin; ++n) {
+      const std::uint32_t bit = cell[n] & mask_;
+      const unsigned had = bits[bit / 8], one = 1U << bit % 8;
+      bits[bit / 8] = static_cast<std::uint8_t>(had | one);
+      if ((had & one) != 0) shared_.push_back(bit);
     }
-    one = joined.data();
-  }
-  for (std::size_t k = 0; k < shared_.size(); ++k) {
-    shared.insert(shared.end(), bits_[k].shared.begin(), bits_[k].shared.end());
-  }
+  });
 }
 
 template <typename T>
-void Company<T>::SetNeighbours(const std::vector<std::uint32_t>& shared, Words* words) const {
-  std::uint8_t* const bits = Bytes(words);
-  for (const std::uint32_t bit : shared) {
+void Company<T>::SetNeighbours() {
+  for (const std::uint32_t bit : shared_) {
     for (const std::uint32_t next : {(bit - 1) & mask_, (bit + 1) & mask_}) {
-      bits[next / 8] |= static_cast<std::uint8_t>(1U << next % 8);
+      bits_[next / 8] |= static_cast<std::uint8_t>(1U << next % 8);
     }
   }
-  bits[(static_cast<std::size_t>(mask_) + 1) / 8] = bits[0];
+  bits_[(static_cast<std::size_t>(mask_) + 1) / 8] = bits_[0];
 }
 
-// Those of the animals first .. last - 1 that see a second bit.
+// Those that see a second bit.
 template <typename T>
-void Company<T>::LookUp(std::span<const Crowd<T>> crowds, std::size_t first, std::size_t last,
-                        const Words& words, std::vector<Animal>* found) const {
-  const std::uint8_t* const bits = Bytes(words);
+void Company<T>::LookUp(std::span<const Crowd<T>> crowds) {
+  const std::uint8_t* const bits = bits_.data();
   const auto bit = [&](std::uint32_t cell) {
     const std::uint32_t at = cell & mask_;
     return bits[at / 8] >> at % 8 & 1;
   };
-  found->clear();
+  found_.clear();
   ForEachPiece(
-      crowds, first, last,
-      [&](const Crowd<T>& crowd, std::size_t begin, std::size_t end, std::size_t before) {
+      crowds, [&](const Crowd<T>& crowd, std::size_t begin, std::size_t end, std::size_t before) {
         std::uint32_t company[kCrowdGrain], lowest[kCrowdGrain];
         std::uint32_t count = 0;
         std::size_t k = begin;
@@ -219,46 +165,20 @@ void Company<T>::LookUp(std::span<const Crowd<T>> crowds, std::size_t first, std
         for (std::uint32_t n = 0; n < count; ++n) {
           const std::size_t at = begin + company[n];
           const T x = crowd.x[at], y = crowd.y[at], z = crowd.z[at];
-          found->push_back({static_cast<std::uint32_t>(before + at), Cell(x, y, z), lowest[n], x, y,
+          found_.push_back({static_cast<std::uint32_t>(before + at), Cell(x, y, z), lowest[n], x, y,
                             z, crowd.RoomOf(at)});
         }
       });
 }
 
 template <typename T>
-void Company<T>::Find(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, T reach,
-                      ThreadPool* pool) {
+void Company<T>::Find(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, T reach) {
   std::size_t total = 0;
   for (const Crowd<T>& crowd : crowds) total += crowd.size;
   NumberLattice(box, reach, total);
-  const std::size_t threads = std::min(kMostShares, static_cast<std::size_t>(pool->threads()));
-  const std::size_t shares = std::clamp<std::size_t>(total / kLeastShare, 1, threads);
-  std::pmr::memory_resource* const memory =
-      total >= kManyAnimals ? &memory_ : std::pmr::get_default_resource();
-  while (bits_.size() < shares) {
-    bits_.emplace_back(memory);
-    joined_.emplace_back(memory);
-  }
-  shared_.resize(shares);
-  found_.resize(shares);
-  const auto for_each_share = [&](const auto& fn) {
-    pool->For(0, static_cast<std::int64_t>(shares), 1, [&](std::int64_t share, std::int64_t) {
-      const auto k = static_cast<std::size_t>(share);
-      fn(k, total * k / shares, total * (k + 1) / shares);
-    });
-  };
-  for_each_share([&](std::size_t share, std::size_t first, std::size_t last) {
-    SetBits(crowds, first, last, &bits_[share]);
-  });
-  for_each_share([&](std::size_t share, std::size_t first, std::size_t last) {
-    Words* words = &bits_[0].words;
-    if (shares > 1) {
-      Join(share);
-      words = &joined_[share];
-    }
-    SetNeighbours(shares > 1 ? shared_[share] : bits_[0].shared, words);
-    LookUp(crowds, first, last, *words, &found_[share]);
-  });
+  SetBits(crowds);
+  SetNeighbours();
+  LookUp(crowds);
 }
 
 template class Company<float>;

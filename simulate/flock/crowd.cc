@@ -44,32 +44,42 @@ void Widen(const T* v, std::size_t first, std::size_t last, T* least, T* most) {
 }  // namespace
 
 template <typename T>
-CrowdBox<T> BoxAround(std::span<const Crowd<T>> crowds, ThreadPool* pool) {
-  const T far = std::numeric_limits<T>::max();
-  const CrowdBox<T> nobody{{far, far, far}, {-far, -far, -far}};
-  CrowdBox<T> all = nobody;
+std::vector<CrowdBox<T>> BoxesOf(std::span<const Crowd<T>> crowds, ThreadPool* pool) {
+  std::size_t count = 0;
+  for (const Crowd<T>& crowd : crowds) count += (crowd.size + kCrowdGrain - 1) / kCrowdGrain;
+  std::vector<CrowdBox<T>> boxes(count, Around<T>({}));
+  CrowdBox<T>* of_crowd = boxes.data();
   for (const Crowd<T>& crowd : crowds) {
-    std::vector<CrowdBox<T>> boxes((crowd.size + kCrowdGrain - 1) / kCrowdGrain, nobody);
     pool->For(0, static_cast<std::int64_t>(crowd.size), kCrowdGrain,
               [&](std::int64_t first, std::int64_t last) {
-                CrowdBox<T> box = nobody;
+                CrowdBox<T> box = Around<T>({});
                 const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(last);
                 Widen(crowd.x, a, b, &box.low.x, &box.high.x);
                 Widen(crowd.y, a, b, &box.low.y, &box.high.y);
                 Widen(crowd.z, a, b, &box.low.z, &box.high.z);
-                boxes[static_cast<std::size_t>(first / kCrowdGrain)] = box;
+                of_crowd[first / kCrowdGrain] = box;
               });
-    for (const CrowdBox<T>& box : boxes) {
-      all.low = {std::min(all.low.x, box.low.x), std::min(all.low.y, box.low.y),
-                 std::min(all.low.z, box.low.z)};
-      all.high = {std::max(all.high.x, box.high.x), std::max(all.high.y, box.high.y),
-                  std::max(all.high.z, box.high.z)};
-    }
+    of_crowd += (crowd.size + kCrowdGrain - 1) / kCrowdGrain;
+  }
+  return boxes;
+}
+
+template <typename T>
+CrowdBox<T> Around(std::span<const CrowdBox<T>> boxes) {
+  const T far = std::numeric_limits<T>::max();
+  CrowdBox<T> all{{far, far, far}, {-far, -far, -far}};
+  for (const CrowdBox<T>& box : boxes) {
+    all.low = {std::min(all.low.x, box.low.x), std::min(all.low.y, box.low.y),
+               std::min(all.low.z, box.low.z)};
+    all.high = {std::max(all.high.x, box.high.x), std::max(all.high.y, box.high.y),
+                std::max(all.high.z, box.high.z)};
   }
   return all;
 }
 
-template CrowdBox<float> BoxAround(std::span<const Crowd<float>>, ThreadPool*);
-template CrowdBox<double> BoxAround(std::span<const Crowd<double>>, ThreadPool*);
+template std::vector<CrowdBox<float>> BoxesOf(std::span<const Crowd<float>>, ThreadPool*);
+template std::vector<CrowdBox<double>> BoxesOf(std::span<const Crowd<double>>, ThreadPool*);
+template CrowdBox<float> Around(std::span<const CrowdBox<float>>);
+template CrowdBox<double> Around(std::span<const CrowdBox<double>>);
 
 }  // namespace flocklift

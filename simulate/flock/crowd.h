@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The animals of one species as minimum-distance enforcement sees them, and the box around those of
-// several.
+// The animals of one species as minimum-distance enforcement sees them, and the boxes around those
+// of several.
 
 #ifndef FLOCKLIFT_SIMULATE_FLOCK_CROWD_H_
 #define FLOCKLIFT_SIMULATE_FLOCK_CROWD_H_
@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/vec3.h"
@@ -25,6 +26,7 @@ struct Crowd {
   T *x = nullptr, *y = nullptr, *z = nullptr;  // [m], moved
   T room = 0;                                  // half of d_min [m]
   const T* body = nullptr;                     // radii, each added to `room`; null: 0 [m]
+  T largest_body = 0;                          // none of them is larger; 0: not known [m]
 
   T RoomOf(std::size_t k) const { return body != nullptr ? room + body[k] : room; }
 };
@@ -43,12 +45,17 @@ struct CrowdBox {
   Vec3<T> low, high;  // [m]
 };
 
-// What is not a number does not count; around nobody, high is below low.
+// For each kCrowdGrain animals of every crowd, crowd after crowd. What is not a number does not
+// count; around nobody, high is below low.
 template <typename T>
-CrowdBox<T> BoxAround(std::span<const Crowd<T>> crowds, ThreadPool* pool);
+std::vector<CrowdBox<T>> BoxesOf(std::span<const Crowd<T>> crowds, ThreadPool* pool);
+template <typename T>
+CrowdBox<T> Around(std::span<const CrowdBox<T>> boxes);
 
-extern template CrowdBox<float> BoxAround(std::span<const Crowd<float>>, ThreadPool*);
-extern template CrowdBox<double> BoxAround(std::span<const Crowd<double>>, ThreadPool*);
+extern template std::vector<CrowdBox<float>> BoxesOf(std::span<const Crowd<float>>, ThreadPool*);
+extern template std::vector<CrowdBox<double>> BoxesOf(std::span<const Crowd<double>>, ThreadPool*);
+extern template CrowdBox<float> Around(std::span<const CrowdBox<float>>);
+extern template CrowdBox<double> Around(std::span<const CrowdBox<double>>);
 
 }  // namespace flocklift
 

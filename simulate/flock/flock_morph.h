@@ -104,8 +104,8 @@ class FlockMorph {
   void Depart();
   void BlowStyle(std::size_t first, std::size_t last);
   void Avoid(std::size_t first, std::size_t last);
-  void Move(ThreadPool* pool, CrowdBox<float>* box);
-  void KeepDistance(const CrowdBox<float>& box, ThreadPool* pool);
+  std::vector<CrowdBox<float>> Move(ThreadPool* pool);
+  void KeepDistance(std::span<const CrowdBox<float>> boxes, ThreadPool* pool);
   void Settle();
   MorphMoveJob MoveJob();
   MorphShapeJob ShapeJob();

@@ -17,16 +17,7 @@ namespace {
 constexpr double kNearPlace = 3;  // radii: so near its place nobody is led around anything
 constexpr float kFar = std::numeric_limits<float>::max();
 
-CrowdBox<float> UnionOf(const std::vector<MorphBox>& boxes) {
-  CrowdBox<float> all{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  for (const MorphBox& box : boxes) {
-    all.low = {std::min(all.low.x, box.low[0]), std::min(all.low.y, box.low[1]),
-               std::min(all.low.z, box.low[2])};
-    all.high = {std::max(all.high.x, box.high[0]), std::max(all.high.y, box.high[1]),
-                std::max(all.high.z, box.high[2])};
-  }
-  return all;
-}
+std::size_t FirstInPack(std::size_t rank) { return rank - rank % 16; }
 
 }  // namespace
 
@@ -110,16 +101,23 @@ void FlockMorph::Avoid(std::size_t first, std::size_t last) {
 
 // ---- minimum distance -------------------------------------------------------------------------
 
-void FlockMorph::KeepDistance(const CrowdBox<float>& box, ThreadPool* pool) {
+// Of the ranks that were moved: those among them that rest keep none.
+void FlockMorph::KeepDistance(std::span<const CrowdBox<float>> boxes, ThreadPool* pool) {
   touched_ = 0;
   if (options_.d_min == 0) return;
-  const Crowd<float> crowd{InFlight(),
-                           position_.x.data() + first_,
-                           position_.y.data() + first_,
-                           position_.z.data() + first_,
+  const std::size_t first = FirstInPack(first_);
+  const Crowd<float> crowd{departed_ - first,
+                           position_.x.data() + first,
+                           position_.y.data() + first,
+                           position_.z.data() + first,
                            0.0F,
-                           room_.data() + first_};
-  touched_ = minimum_distance_.Enforce({&crowd, 1}, box, pool);
+                           room_.data() + first,
+                           static_cast<float>(0.5 * options_.d_min)};
+  if (obstacles_.values.empty()) {
+    touched_ = minimum_distance_.Enforce({&crowd, 1}, boxes, pool);
+  } else {
+    touched_ = minimum_distance_.Enforce({&crowd, 1}, pool);  // it avoided them after it was boxed
+  }
   touched_in_all_ += touched_;
 }
 
@@ -127,37 +125,35 @@ void FlockMorph::KeepDistance(const CrowdBox<float>& box, ThreadPool* pool) {
 
 void FlockMorph::Step(ThreadPool* pool) {
   Depart();
-  CrowdBox<float> box;
-  Move(pool, &box);
-  KeepDistance(box, pool);
+  KeepDistance(Move(pool), pool);
   ++steps_;
   Settle();
 }
 
-void FlockMorph::Move(ThreadPool* pool, CrowdBox<float>* box) {
-  const auto first = static_cast<std::int64_t>(first_ - first_ % 16);
+// Returns the boxes around each kGrain ranks before anybody avoids an obstacle.
+std::vector<CrowdBox<float>> FlockMorph::Move(ThreadPool* pool) {
+  static_assert(kGrain == kCrowdGrain);
+  const auto first = static_cast<std::int64_t>(FirstInPack(first_));
   const auto last = static_cast<std::int64_t>(departed_);
   const MorphMoveJob job = MoveJob();
   const bool obstacles = !obstacles_.values.empty();
-  std::vector<MorphBox> boxes(static_cast<std::size_t>((last - first + kGrain - 1) / kGrain),
-                              {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}});
+  std::vector<CrowdBox<float>> boxes(
+      static_cast<std::size_t>((last - first + kGrain - 1) / kGrain));
   pool->For(first, last, kGrain, [&](std::int64_t begin, std::int64_t end) {
     std::array<std::uint32_t, kGrain + 8> events;
     const auto a = static_cast<std::size_t>(begin), b = static_cast<std::size_t>(end);
     BlowStyle(a, b);
-    const std::uint32_t count =
-        kernel_->move(job, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
-                      events.data(), &boxes[static_cast<std::size_t>((begin - first) / kGrain)]);
+    MorphBox box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+    const std::uint32_t count = kernel_->move(job, static_cast<std::uint32_t>(begin),
+                                              static_cast<std::uint32_t>(end), events.data(), &box);
+    boxes[static_cast<std::size_t>((begin - first) / kGrain)] = {
+        {box.low[0], box.low[1], box.low[2]}, {box.high[0], box.high[1], box.high[2]}};
     if (obstacles) Avoid(a, b);
     for (std::uint32_t e = 0; e < count; ++e) {
       PassGates(events[e] & ~kMorphInRegion, obstacles || (events[e] & kMorphInRegion) != 0);
     }
   });
-  *box = UnionOf(boxes);
-  if (obstacles) {
-    const Crowd<float> crowd{departed_, position_.x.data(), position_.y.data(), position_.z.data()};
-    *box = BoxAround<float>({&crowd, 1}, pool);
-  }
+  return boxes;
 }
 
 // Those of the lowest ranks that have arrived get their target's own corners, and rest.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulate/flock/company.h"
+
 namespace flocklift {
 namespace {
 
@@ -42,28 +44,28 @@ std::int64_t MinimumDistance<T>::PushApart(const Pairs& sorted, std::span<const 
 }
 
 template <typename T>
-std::int64_t MinimumDistance<T>::Enforce(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box,
-                                         ThreadPool* pool) {
+std::int64_t MinimumDistance<T>::Enforce(std::span<const Crowd<T>> crowds,
+                                         std::span<const CrowdBox<T>> boxes, ThreadPool* pool) {
   std::size_t total = 0;
   T most = 0;
   for (const Crowd<T>& crowd : crowds) {
     total += crowd.size;
-    if (crowd.body == nullptr) most = std::max(most, crowd.room);
-    for (std::size_t k = 0; crowd.body != nullptr && k < crowd.size; ++k) {
-      most = std::max(most, crowd.room + crowd.body[k]);
+    if (crowd.body == nullptr || crowd.largest_body > 0) {
+      most = std::max(most, crowd.room + crowd.largest_body);
+      continue;
     }
+    for (std::size_t k = 0; k < crowd.size; ++k) most = std::max(most, crowd.RoomOf(k));
   }
   if (!(most > 0) || total < 2) return 0;
   const T reach = 2 * most;
+  const CrowdBox<T> box = Around<T>(boxes);
   const bool sparse = Company<T>::Density(crowds, box, reach) < kSparse;
   if (!sparse && grid_.Sort(crowds, box, reach, pool)) {
     grid_.FindPairs(pool);
     return PushApart(grid_, crowds);
   }
-  company_.Find(crowds, box, reach, pool);
-  table_.Sort(company_);
-  table_.FindPairs(pool);
-  return PushApart(table_, crowds);
+  patches_.FindPairs(crowds, boxes, reach, pool);
+  return PushApart(patches_, crowds);
 }
 
 template class MinimumDistance<float>;

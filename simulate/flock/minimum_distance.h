@@ -10,8 +10,8 @@
 // published; in a crush some are still too near afterwards.
 //
 // Where nearly all animals have nobody near, a bit for every cell of a lattice tells most of them
-// from the rest (simulate/flock/company.h), and only those with company go into a table of buckets
-// (simulate/flock/close_table.h). So it is where a flock is so scattered that the cells of a grid
+// from the rest, and only those with company are looked at, patch by patch
+// (simulate/flock/near_patches.h). So it is where a flock is so scattered that the cells of a grid
 // would hold crowds; all others are in a grid (simulate/flock/near_grid.h). Linear in animals,
 // whatever the extent of the scene, and fastest when neighbours in space are neighbours in memory.
 // One room far larger than the others makes it slow.
@@ -25,20 +25,20 @@
 
 #include "simulate/core/parallel_for.h"
 #include "simulate/core/vec3.h"
-#include "simulate/flock/close_table.h"
-#include "simulate/flock/company.h"
 #include "simulate/flock/crowd.h"
 #include "simulate/flock/near_grid.h"
+#include "simulate/flock/near_patches.h"
 
 namespace flocklift {
 
 template <typename T>
 class MinimumDistance {
  public:
-  // Returns how many animals were moved. `box` is around all of them.
-  std::int64_t Enforce(std::span<const Crowd<T>> crowds, const CrowdBox<T>& box, ThreadPool* pool);
+  // Returns how many animals were moved. `boxes` are those of BoxesOf, or around these.
+  std::int64_t Enforce(std::span<const Crowd<T>> crowds, std::span<const CrowdBox<T>> boxes,
+                       ThreadPool* pool);
   std::int64_t Enforce(std::span<const Crowd<T>> crowds, ThreadPool* pool) {
-    return Enforce(crowds, BoxAround(crowds, pool), pool);
+    return Enforce(crowds, BoxesOf(crowds, pool), pool);
   }
 
  private:
@@ -46,8 +46,7 @@ class MinimumDistance {
   std::int64_t PushApart(const Pairs& sorted, std::span<const Crowd<T>> crowds);
 
   NearGrid<T> grid_;
-  Company<T> company_;
-  CloseTable<T> table_;
+  NearPatches<T> patches_;
   std::vector<std::uint8_t> touched_;  // of all animals
 };
 

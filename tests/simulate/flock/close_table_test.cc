@@ -42,20 +42,18 @@ void ExpectEveryPairOnce(const NamedFlock& flock, T room) {
   SCOPED_TRACE(flock.name);
   Bodies<T> bodies = AsBodies<T>(flock);
   const std::vector<Crowd<T>> crowds = TwoCrowds(&bodies, bodies.size() / 3, room);
-  ThreadPool pool(2);
+  ThreadPool pool(1);
   Company<T> company;
-  company.Find(crowds, BoxAround<T>(crowds, &pool), 2 * room, &pool);
+  company.Find(crowds, Around<T>(BoxesOf<T>(crowds, &pool)), 2 * room);
   CloseTable<T> table;
   table.Sort(company);
-  table.FindPairs(&pool);
+  table.FindPairs();
   Pairs found;
-  for (const auto& chunk : table.pairs()) {
-    for (const ClosePair<T>& pair : chunk) {
-      const std::uint32_t a = table.Animal(pair.first), b = table.Animal(pair.second);
-      EXPECT_TRUE(found.insert({std::min(a, b), std::max(a, b)}).second) << "found twice";
-      EXPECT_EQ(pair.way, bodies.Position(b) - bodies.Position(a));
-      EXPECT_EQ(pair.distance, 2 * room);
-    }
+  for (const ClosePair<T>& pair : table.pairs()) {
+    const std::uint32_t a = table.Animal(pair.first), b = table.Animal(pair.second);
+    EXPECT_TRUE(found.insert({std::min(a, b), std::max(a, b)}).second) << "found twice";
+    EXPECT_EQ(pair.way, bodies.Position(b) - bodies.Position(a));
+    EXPECT_EQ(pair.distance, 2 * room);
   }
   EXPECT_EQ(found, BruteForce(bodies, 2 * room));
 }

@@ -19,23 +19,20 @@ Crowd<T> AsCrowd(Bodies<T>* bodies) {
 }
 
 template <typename T>
-std::vector<std::uint32_t> FindBy(Company<T>* company, std::vector<Bodies<T>> groups, T reach,
-                                  ThreadPool* pool) {
+std::vector<std::uint32_t> FindBy(Company<T>* company, std::vector<Bodies<T>> groups, T reach) {
   std::vector<Crowd<T>> crowds;
   for (Bodies<T>& group : groups) crowds.push_back(AsCrowd(&group));
-  company->Find(crowds, BoxAround<T>(crowds, pool), reach, pool);
+  ThreadPool pool(1);
+  company->Find(crowds, Around<T>(BoxesOf<T>(crowds, &pool)), reach);
   std::vector<std::uint32_t> found;
-  for (const auto& animals : company->found()) {
-    for (const auto& animal : animals) found.push_back(animal.animal);
-  }
+  for (const auto& animal : company->found()) found.push_back(animal.animal);
   return found;
 }
 
 template <typename T>
-std::vector<std::uint32_t> Find(const std::vector<Bodies<T>>& groups, T reach, int threads) {
-  ThreadPool pool(threads);
+std::vector<std::uint32_t> Find(const std::vector<Bodies<T>>& groups, T reach) {
   Company<T> company;
-  return FindBy(&company, groups, reach, &pool);
+  return FindBy(&company, groups, reach);
 }
 
 template <typename T>
@@ -54,8 +51,8 @@ std::set<std::uint32_t> BruteForce(const std::vector<Bodies<T>>& groups, T reach
 }
 
 template <typename T>
-void ExpectAllFound(const std::vector<Bodies<T>>& groups, T reach, int threads = 1) {
-  const std::vector<std::uint32_t> found = Find(groups, reach, threads);
+void ExpectAllFound(const std::vector<Bodies<T>>& groups, T reach) {
+  const std::vector<std::uint32_t> found = Find(groups, reach);
   const std::set<std::uint32_t> some(found.begin(), found.end());
   EXPECT_EQ(some.size(), found.size());
   for (const std::uint32_t animal : BruteForce(groups, reach)) {
@@ -84,50 +81,23 @@ TEST(Company, CountsThroughCrowds) {
                         0.1F);
 }
 
-// Pairs of which each is another thread's, in one cell or in two.
-TEST(Company, IsFoundAcrossShares) {
-  NamedFlock flock = RandomFlock("", 6000, {90, 90, 90}, 13);
-  for (std::size_t k = 0; k < 100; ++k) {
-    const double away = 0.0009 * static_cast<double>(k);
-    flock.position[5000 + k] = flock.position[k] + Vec3d{away, 0, 0};
-  }
-  for (const int threads : {2, 3}) {
-    ExpectAllFound<float>({AsBodies<float>(flock)}, 0.1F, threads);
-    ExpectAllFound<double>({AsBodies<double>(flock)}, 0.1, threads);
-  }
-}
-
 TEST(Company, IsNotSomebodyFarAway) {
   const std::vector<Bodies<float>> flock = {
       AsBodies<float>(RandomFlock("", 20000, {60, 60, 60}, 10))};
-  const std::size_t near = BruteForce(flock, 0.2F).size(), found = Find(flock, 0.2F, 1).size();
+  const std::size_t near = BruteForce(flock, 0.2F).size(), found = Find(flock, 0.2F).size();
   EXPECT_GT(near, 10);
   EXPECT_LT(found, near + 20000 / 8);
 }
 
-TEST(Company, SameAtAnyNumberOfThreads) {
-  for (const double edge : {2.0, 30.0}) {
-    const std::vector<Bodies<float>> flock = {
-        AsBodies<float>(RandomFlock("", 9000, {edge, edge, edge}, 11))};
-    const auto one = Find(flock, 0.1F, 1);
-    EXPECT_FALSE(one.empty());
-    EXPECT_EQ(Find(flock, 0.1F, 2), one);
-    EXPECT_EQ(Find(flock, 0.1F, 5), one);
-  }
-}
-
-// As many bits as before, more, fewer, and in more shares or fewer.
+// As many bits as before, more, and fewer.
 TEST(Company, RemembersNothing) {
-  for (const int threads : {1, 3}) {
-    ThreadPool pool(threads);
-    Company<float> company;
-    for (const int n : {3000, 3000, 9000, 70000, 500, 6000}) {
-      const std::vector<Bodies<float>> flock = {
-          AsBodies<float>(RandomFlock("", n, {40, 40, 40}, static_cast<std::uint64_t>(n)))};
-      const auto fresh = Find(flock, 0.2F, threads);
-      EXPECT_EQ(FindBy(&company, flock, 0.2F, &pool), fresh) << n << " on " << threads;
-      EXPECT_LT(fresh.size(), flock[0].size() / 2);
-    }
+  Company<float> company;
+  for (const int n : {3000, 3000, 9000, 70000, 500, 6000}) {
+    const std::vector<Bodies<float>> flock = {
+        AsBodies<float>(RandomFlock("", n, {40, 40, 40}, static_cast<std::uint64_t>(n)))};
+    const auto fresh = Find(flock, 0.2F);
+    EXPECT_EQ(FindBy(&company, flock, 0.2F), fresh) << n;
+    EXPECT_LT(fresh.size(), flock[0].size() / 2);
   }
 }
 

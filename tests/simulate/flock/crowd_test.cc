@@ -16,9 +16,9 @@ namespace flocklift {
 namespace {
 
 template <typename T>
-class BoxAroundCrowds : public testing::Test {};
+class BoxesOfCrowds : public testing::Test {};
 using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(BoxAroundCrowds, Scalars);
+TYPED_TEST_SUITE(BoxesOfCrowds, Scalars);
 
 template <typename T>
 struct Places {
@@ -39,14 +39,14 @@ void ExpectAround(const std::vector<T>& values, T low, T high) {
   EXPECT_EQ(high, *std::max_element(values.begin(), values.end()));
 }
 
-TYPED_TEST(BoxAroundCrowds, HasTheLeastAndTheLargest) {
+TYPED_TEST(BoxesOfCrowds, HasTheLeastAndTheLargest) {
   for (const int threads : {1, 3}) {
     ThreadPool pool(threads);
     for (const std::size_t count : {1, 2, 3, 4, 7, 8, 15, 16, 17, 31, 33, 70, 511, 513, 3001}) {
       SCOPED_TRACE(count);
       Places<TypeParam> places(count);
       const Crowd<TypeParam> crowd = places.AsCrowd();
-      const CrowdBox<TypeParam> box = BoxAround<TypeParam>({&crowd, 1}, &pool);
+      const CrowdBox<TypeParam> box = Around<TypeParam>(BoxesOf<TypeParam>({&crowd, 1}, &pool));
       ExpectAround(places.x, box.low.x, box.high.x);
       ExpectAround(places.y, box.low.y, box.high.y);
       ExpectAround(places.z, box.low.z, box.high.z);
@@ -54,31 +54,32 @@ TYPED_TEST(BoxAroundCrowds, HasTheLeastAndTheLargest) {
   }
 }
 
-TYPED_TEST(BoxAroundCrowds, LeavesOutWhatIsNotANumber) {
+TYPED_TEST(BoxesOfCrowds, LeavesOutWhatIsNotANumber) {
   ThreadPool pool(1);
   for (const std::size_t count : {2, 9, 37}) {
     for (std::size_t at = 0; at < count; ++at) {
       Places<TypeParam> places(count);
       places.y[at] = std::numeric_limits<TypeParam>::quiet_NaN();
       const Crowd<TypeParam> crowd = places.AsCrowd();
-      const CrowdBox<TypeParam> box = BoxAround<TypeParam>({&crowd, 1}, &pool);
+      const CrowdBox<TypeParam> box = Around<TypeParam>(BoxesOf<TypeParam>({&crowd, 1}, &pool));
       places.y.erase(places.y.begin() + static_cast<std::ptrdiff_t>(at));
       ExpectAround(places.y, box.low.y, box.high.y);
     }
   }
 }
 
-TYPED_TEST(BoxAroundCrowds, IsAroundAllOfThem) {
+TYPED_TEST(BoxesOfCrowds, IsAroundAllOfThem) {
   ThreadPool pool(1);
   Places<TypeParam> some(20), nobody(0), one(1);
   one.x[0] = 9;
   one.z[0] = -9;
   const std::vector<Crowd<TypeParam>> crowds = {some.AsCrowd(), nobody.AsCrowd(), one.AsCrowd()};
-  const CrowdBox<TypeParam> box = BoxAround<TypeParam>(crowds, &pool);
+  const CrowdBox<TypeParam> box = Around<TypeParam>(BoxesOf<TypeParam>(crowds, &pool));
   EXPECT_EQ(box.high.x, 9);
   EXPECT_EQ(box.low.z, -9);
   EXPECT_EQ(box.low.x, *std::min_element(some.x.begin(), some.x.end()));
-  const CrowdBox<TypeParam> empty = BoxAround<TypeParam>({crowds.data() + 1, 1}, &pool);
+  const CrowdBox<TypeParam> empty =
+      Around<TypeParam>(BoxesOf<TypeParam>({crowds.data() + 1, 1}, &pool));
   EXPECT_GT(empty.low.x, empty.high.x);
 }
 

@@ -53,7 +53,7 @@ void ExpectEveryPairOnce(const NamedFlock& flock, T room) {
   const Crowd<T> crowd = AsCrowd(&bodies, room);
   ThreadPool pool(2);
   NearGrid<T> grid;
-  ASSERT_TRUE(grid.Sort({&crowd, 1}, BoxAround<T>({&crowd, 1}, &pool), 2 * room, &pool));
+  ASSERT_TRUE(grid.Sort({&crowd, 1}, Around<T>(BoxesOf<T>({&crowd, 1}, &pool)), 2 * room, &pool));
   grid.FindPairs(&pool);
   EXPECT_EQ(Found(grid), BruteForce(bodies, 2 * room));
 }
@@ -78,11 +78,11 @@ TEST(NearGrid, RefusesTheScattered) {
   Bodies<float> bodies = AsBodies<float>(flock);
   const Crowd<float> crowd = AsCrowd(&bodies, 0.05F);
   ThreadPool pool(1);
-  EXPECT_FALSE(
-      NearGrid<float>{}.Sort({&crowd, 1}, BoxAround<float>({&crowd, 1}, &pool), 0.1F, &pool));
+  EXPECT_FALSE(NearGrid<float>{}.Sort(
+      {&crowd, 1}, Around<float>(BoxesOf<float>({&crowd, 1}, &pool)), 0.1F, &pool));
   for (std::size_t k = 0; k < 1000; ++k) bodies.x[k] += 1e9F;  // no cell could tell places apart
-  EXPECT_FALSE(
-      NearGrid<float>{}.Sort({&crowd, 1}, BoxAround<float>({&crowd, 1}, &pool), 0.1F, &pool));
+  EXPECT_FALSE(NearGrid<float>{}.Sort(
+      {&crowd, 1}, Around<float>(BoxesOf<float>({&crowd, 1}, &pool)), 0.1F, &pool));
 }
 
 // A row of five cells with 40, 1, 0, 30 and 9 animals; the rows that follow are empty, as are the
