@@ -18,6 +18,7 @@ constexpr double kMargin = 1.001;
 
 // Animals, below which another thread is not worth waking.
 constexpr std::size_t kLeastChunk = 2048, kLeastBoxChunk = 32768;
+constexpr std::uint32_t kBlockBits = 12;  // of a cell's number within a block of work
 
 // n animals in equal shares for `count` threads.
 struct Shares {
@@ -90,30 +91,25 @@ void CellGrid<T>::Sort(const Bodies<T>& from, double reach, Bodies<T>* to, Threa
   const std::size_t cells = static_cast<std::size_t>(g.Cell(nx_ + 1, ny_ + 1, nz_ + 1)) + 1;
   // Each share counts and fills by itself, and those of one cell follow each other in their order:
   // the sort is stable, so the order is the same however many shares there are.
-  const Shares shares = most_shares(std::min(n / kLeastChunk, 2 * n / cells));
+  const Shares shares = most_shares(n / kLeastChunk);
+  const std::size_t blocks = (cells >> kBlockBits) + 1;
   cell_.resize(n);
   start_.resize(cells + 1);
   next_.resize(cells * static_cast<std::size_t>(shares.count));
+  in_block_.assign(blocks * static_cast<std::size_t>(shares.count), 0);
   shares.ForEach(pool, [&](std::size_t share, std::size_t first, std::size_t last) {
     std::uint32_t* const count = next_.data() + share * cells;
+    std::uint32_t* const in_block = in_block_.data() + share * blocks;
     std::fill_n(count, cells, 0);
     for (std::size_t k = first; k < last; ++k) {
       const int cell = g.Cell(along(from.x[k] - low_.x, nx_), along(from.y[k] - low_.y, ny_),
                               along(from.z[k] - low_.z, nz_));
       cell_[k] = static_cast<std::uint32_t>(cell);
       ++count[cell];
+      if (shares.count > 1) ++in_block[static_cast<std::uint32_t>(cell) >> kBlockBits];
     }
   });
-  std::uint32_t sum = 0;
-  for (std::size_t c = 0; c < cells; ++c) {
-    start_[c] = sum;
-    for (std::size_t share = c; share < next_.size(); share += cells) {
-      const std::uint32_t count = next_[share];
-      next_[share] = sum;
-      sum += count;
-    }
-  }
-  start_[cells] = sum;
+  StartRuns(cells, shares.count > 1 ? pool : nullptr);
   shares.ForEach(pool, [&](std::size_t share, std::size_t first, std::size_t last) {
     std::uint32_t* const next = next_.data() + share * cells;
     for (std::size_t k = first; k < last; ++k) {
@@ -127,6 +123,37 @@ void CellGrid<T>::Sort(const Bodies<T>& from, double reach, Bodies<T>* to, Threa
       to->agent[slot] = from.agent[k];
     }
   });
+}
+
+// Turns the counts of each share into where in the order it goes on, block by block of cells.
+template <typename T>
+void CellGrid<T>::StartRuns(std::size_t cells, ThreadPool* pool) {
+  const auto start = [&](std::size_t first, std::size_t last, std::uint32_t sum) {
+    for (std::size_t c = first; c < last; ++c) {
+      start_[c] = sum;
+      for (std::size_t share = c; share < next_.size(); share += cells) {
+        const std::uint32_t count = next_[share];
+        next_[share] = sum;
+        sum += count;
+      }
+    }
+  };
+  start_[cells] = static_cast<std::uint32_t>(cell_.size());
+  if (pool == nullptr) return start(0, cells, 0);
+  const std::size_t blocks = (cells >> kBlockBits) + 1;
+  std::uint32_t sum = 0;  // of the blocks before
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const std::uint32_t before = sum;
+    for (std::size_t share = block; share < in_block_.size(); share += blocks) {
+      sum += in_block_[share];
+    }
+    in_block_[block] = before;
+  }
+  pool->For(0, static_cast<std::int64_t>(cells), std::int64_t{1} << kBlockBits,
+            [&](std::int64_t first, std::int64_t last) {
+              start(static_cast<std::size_t>(first), static_cast<std::size_t>(last),
+                    in_block_[static_cast<std::size_t>(first >> kBlockBits)]);
+            });
 }
 
 template <typename T>

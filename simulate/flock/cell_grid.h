@@ -59,11 +59,13 @@ class CellGrid {
 
  private:
   void ChooseCells(const Vec3<T>& low, const Vec3<T>& high, double reach, std::size_t n);
+  void StartRuns(std::size_t cells, ThreadPool* pool);
 
   Vec3<T> low_;
   T inverse_edge_{};
   int nx_ = 0, ny_ = 0, nz_ = 0;
-  std::vector<std::uint32_t> start_, cell_, next_;
+  // By cell, animal, share and cell, share and block of cells.
+  std::vector<std::uint32_t> start_, cell_, next_, in_block_;
 };
 
 extern template class CellGrid<float>;
