@@ -123,10 +123,11 @@ Settling Departures::SettlingOf(double time, const std::vector<Id>& ids,
   const auto progress = [&](const std::vector<Vec3d>& from) {
     ShapeTargets places(*shape, path == world_.paths.end() ? nullptr : &*path, world_.duration,
                         from, settled_time_, world_.seed, 1);
+    ThreadPool pool(1);
     double sum = 0;
-    const std::vector<Vec3d> then = places.At(seen_time_);
+    const std::vector<Vec3d> then = places.At(seen_time_, &pool);
     for (std::size_t k = 0; k < ids.size(); ++k) sum += Norm(then[k] - first[k]);
-    const std::vector<Vec3d>& now = places.At(time);
+    const std::vector<Vec3d>& now = places.At(time, &pool);
     for (std::size_t k = 0; k < ids.size(); ++k) sum -= Norm(now[k] - position[k]);
     return sum;
   };

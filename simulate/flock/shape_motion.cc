@@ -149,7 +149,7 @@ class ShapeMotion final : public Motion<T> {
   // The samples in the order of the herd; most steps change neither.
   void TakeTargets(double time, const Herd<T>& herd, ThreadPool* pool) {
     const std::vector<std::uint32_t>& order = herd.now.agent;
-    const std::vector<Vec3d>& target = targets_.At(time);
+    const std::vector<Vec3d>& target = targets_.At(time, pool);
     if (taken_ == targets_.version() && taken_order_ == order) return;
     ForEachAnimal(herd, pool, [&](std::size_t k) {
       const Vec3<T> own = Cast<T>(target[order[k]]);

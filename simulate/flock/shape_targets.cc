@@ -13,6 +13,8 @@
 namespace flocklift {
 namespace {
 
+constexpr std::int64_t kGrain = 1024;  // samples a chunk of work
+
 std::vector<SurfaceSample> EvenSamples(const TriangleMesh& mesh, std::size_t count,
                                        std::uint64_t seed, int threads) {
   std::vector<SurfaceSample> samples = StratifiedSamples(mesh, static_cast<int>(count), seed);
@@ -20,13 +22,16 @@ std::vector<SurfaceSample> EvenSamples(const TriangleMesh& mesh, std::size_t cou
   return samples;
 }
 
-std::vector<Vec3d> Points(const TriangleMesh& mesh, const std::vector<SurfaceSample>& samples) {
-  std::vector<Vec3d> points;
-  points.reserve(samples.size());
-  for (const SurfaceSample& s : samples) {
-    points.push_back(SamplePoint(mesh.vertices, mesh.triangles, s));
-  }
-  return points;
+void TakePoints(const TriangleMesh& mesh, const std::vector<SurfaceSample>& samples,
+                ThreadPool* pool, std::vector<Vec3d>* points) {
+  points->resize(samples.size());
+  pool->For(0, static_cast<std::int64_t>(samples.size()), kGrain,
+            [&](std::int64_t first, std::int64_t last) {
+              for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last);
+                   ++k) {
+                (*points)[k] = SamplePoint(mesh.vertices, mesh.triangles, samples[k]);
+              }
+            });
 }
 
 }  // namespace
@@ -40,19 +45,20 @@ ShapeTargets::ShapeTargets(const ShapeInTime& shape, const PathSpec* path, doubl
     path_.emplace(path->points, false);
     path_speed_ = path->speed > 0 ? path->speed : path_->length() / duration;
   }
-  std::vector<Vec3d> here = start;
+  ThreadPool pool(threads);
+  std::vector<Vec3d> here = start, points;
   const std::size_t shapes = shape.period > 0 ? 1 : shape.meshes.size();
   for (std::size_t k = 0; k < shapes; ++k) {
     const bool first = k == 0;
     // The first shape as it stands now; the others in the place of the one before.
     const TriangleMesh mesh = first ? MeshAt(time) : shape.meshes[k];
     const std::vector<SurfaceSample> samples = EvenSamples(mesh, start.size(), seed + k, threads);
-    const std::vector<Vec3d> points = Points(mesh, samples);
+    TakePoints(mesh, samples, &pool, &points);
     const std::vector<std::uint32_t> target_of = MatchTargets(here, points, {});
     std::vector<SurfaceSample>& by_agent = samples_.emplace_back();
     for (const std::uint32_t target : target_of) by_agent.push_back(samples[target]);
     spacing_.push_back(std::sqrt(SurfaceArea(mesh) / static_cast<double>(start.size())));
-    here = Points(shape.meshes[k], by_agent);
+    TakePoints(shape.meshes[k], by_agent, &pool, &here);
   }
 }
 
@@ -88,12 +94,12 @@ TriangleMesh ShapeTargets::MeshAt(double time) const {
   return mesh;
 }
 
-const std::vector<Vec3d>& ShapeTargets::At(double time) {
+const std::vector<Vec3d>& ShapeTargets::At(double time, ThreadPool* pool) {
   const bool animated = path_ || (shape_.period > 0 && shape_.meshes.size() > 1);
   const bool same = target_time_ && (*target_time_ == time ||
                                      (!animated && ShapeAt(*target_time_) == ShapeAt(time)));
   if (!same) {
-    target_ = Points(MeshAt(time), samples_[ShapeAt(time)]);
+    TakePoints(MeshAt(time), samples_[ShapeAt(time)], pool, &target_);
     ++version_;
   }
   target_time_ = time;

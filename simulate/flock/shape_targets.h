@@ -16,6 +16,7 @@
 #include <optional>
 #include <vector>
 
+#include "simulate/core/parallel_for.h"
 #include "simulate/core/vec3.h"
 #include "simulate/flock/world.h"
 #include "simulate/shapes/spline_path.h"
@@ -31,7 +32,7 @@ class ShapeTargets {
                const std::vector<Vec3d>& start, double time, std::uint64_t seed, int threads);
 
   // By agent. The same vector until something has moved.
-  const std::vector<Vec3d>& At(double time);
+  const std::vector<Vec3d>& At(double time, ThreadPool* pool);
   int version() const { return version_; }  // another one after each change of what At returns
   // Of the path's frame at a time [m/s].
   Vec3d Velocity(double time) const;

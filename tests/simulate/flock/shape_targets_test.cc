@@ -34,25 +34,27 @@ TriangleMesh Scaled(TriangleMesh mesh, double factor) {
 
 TEST(ShapeTargets, EveryAnimalHasAPlaceOfItsOwnOnTheSurface) {
   const ShapeInTime shape{"ball", {0}, {BallMesh({1, 2, 3}, 2, 3)}, 0, ""};
+  ThreadPool pool(2);
   ShapeTargets targets(shape, nullptr, 10, Start({}), 0, 1, 1);
-  const std::vector<Vec3d> at = targets.At(0);
+  const std::vector<Vec3d> at = targets.At(0, &pool);
   ASSERT_EQ(at.size(), static_cast<std::size_t>(kCount));
   EXPECT_NEAR(targets.MeanDistanceToSurface(at, 0), 0, 1e-9);
   EXPECT_NEAR(targets.Spacing(0), std::sqrt(16 * std::numbers::pi / kCount), 0.01);
   for (std::size_t i = 0; i < at.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) EXPECT_GT(Norm(at[i] - at[j]), 0.4 * targets.Spacing(0));
   }
-  EXPECT_EQ(targets.At(7), at);
+  EXPECT_EQ(targets.At(7, &pool), at);
   EXPECT_EQ(targets.Velocity(3), (Vec3d{}));
 }
 
 TEST(ShapeTargets, OfAnAnimationMoveWithTheMeshAndComeRound) {
   const TriangleMesh ball = BallMesh({}, 1, 3);
   const ShapeInTime shape{"breath", {0, 1}, {ball, Scaled(ball, 3)}, 4, ""};
+  ThreadPool pool(2);
   ShapeTargets targets(shape, nullptr, 10, Start({}), 0, 1, 1);
-  const std::vector<Vec3d> first = targets.At(0);
+  const std::vector<Vec3d> first = targets.At(0, &pool);
   const auto expect_scale = [&](double time, double scale) {
-    const std::vector<Vec3d> now = targets.At(time);
+    const std::vector<Vec3d> now = targets.At(time, &pool);
     for (std::size_t k = 0; k < now.size(); ++k) {
       EXPECT_NEAR(Norm(now[k] - scale * first[k]), 0, 1e-9) << time;
     }
@@ -67,10 +69,11 @@ TEST(ShapeTargets, OfAnAnimationMoveWithTheMeshAndComeRound) {
 TEST(ShapeTargets, OfShapesInTurnPassOverToNearOnes) {
   const ShapeInTime shape{
       "two", {0, 5}, {BallMesh({}, 1, 3), BoxMesh({-1, -1, -1}, {1, 1, 1})}, 0, ""};
+  ThreadPool pool(2);
   ShapeTargets targets(shape, nullptr, 10, Start({}), 0, 1, 1);
-  const std::vector<Vec3d> before = targets.At(4.9), after = targets.At(5);
-  EXPECT_EQ(targets.At(0), before);
-  EXPECT_EQ(targets.At(99), after);
+  const std::vector<Vec3d> before = targets.At(4.9, &pool), after = targets.At(5, &pool);
+  EXPECT_EQ(targets.At(0, &pool), before);
+  EXPECT_EQ(targets.At(99, &pool), after);
   double mean = 0;
   for (std::size_t k = 0; k < before.size(); ++k) {
     EXPECT_NEAR(Norm(before[k]), 1, 0.02);
@@ -84,8 +87,9 @@ TEST(ShapeTargets, OfShapesInTurnPassOverToNearOnes) {
 TEST(ShapeTargets, OnAPathTheyMoveAtItsSpeed) {
   const ShapeInTime shape{"ball", {0}, {BallMesh({}, 1, 2)}, 0, "way"};
   const PathSpec path{"way", {{0, 0, 5}, {30, 0, 5}}, 2, 0};
+  ThreadPool pool(2);
   ShapeTargets targets(shape, &path, 10, Start({}), 0, 1, 1);
-  const std::vector<Vec3d> first = targets.At(0), later = targets.At(3);
+  const std::vector<Vec3d> first = targets.At(0, &pool), later = targets.At(3, &pool);
   for (std::size_t k = 0; k < first.size(); ++k) {
     EXPECT_NEAR(Norm(later[k] - first[k] - Vec3d{6, 0, 0}), 0, 1e-6);
   }
@@ -102,7 +106,8 @@ TEST(ShapeTargets, SameAtAnyNumberOfThreads) {
   const ShapeInTime shape{"ball", {0}, {BallMesh({}, 1, 3)}, 0, ""};
   ShapeTargets one(shape, nullptr, 10, Start({}), 0, 1, 1),
       two(shape, nullptr, 10, Start({}), 0, 1, 2);
-  EXPECT_EQ(one.At(0), two.At(0));
+  ThreadPool pool(2);
+  EXPECT_EQ(one.At(0, &pool), two.At(0, &pool));
 }
 
 }  // namespace
