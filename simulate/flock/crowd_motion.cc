@@ -60,6 +60,8 @@ class CrowdMotion final : public Motion<T> {
     });
   }
 
+  bool HasNeighbours() const override { return false; }
+
   void Retune(const ModelParameters& parameters) override {
     p_ = std::get<CrowdParameters>(parameters);
     PrepareField();

@@ -81,7 +81,7 @@ struct BasicEngine<T>::Impl {
     for (GoalSpec& goal : around.goals) goal.position = GoalPosition(goal, around.time);
     for (internal::Species<T>& s : species) {
       s.motion->Step(around, &pool, &s.herd);
-      neighbour_sum += SumOfNeighbours(s.herd, &pool);
+      if (s.motion->HasNeighbours()) neighbour_sum += SumOfNeighbours(s.herd, &pool);
       touched_sum += static_cast<double>(s.motion->touched());
     }
     KeepDistance();

@@ -136,6 +136,8 @@ class MorphMotion final : public Motion<T> {
               });
   }
 
+  bool HasNeighbours() const override { return false; }
+
   void Retune(const ModelParameters& parameters) override {
     morph_.Retune(OptionsOf(std::get<MorphParameters>(parameters), world_, path_));
   }

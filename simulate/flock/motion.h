@@ -38,6 +38,9 @@ class Motion {
   // not on the pool's threads.
   virtual void Step(const Surroundings& around, ThreadPool* pool, Herd<T>* herd) = 0;
 
+  // Whether anybody has neighbours in this model; the herd's are 0 otherwise.
+  virtual bool HasNeighbours() const { return true; }
+
   // Other parameters of the same model from the next step on: an event, or somebody's slider.
   virtual void Retune(const ModelParameters& parameters) = 0;
 

@@ -105,6 +105,8 @@ class SwarmMotion final : public Motion<T> {
               });
   }
 
+  bool HasNeighbours() const override { return false; }
+
   void Retune(const ModelParameters& parameters) override {
     const SwarmParameters& p = std::get<SwarmParameters>(parameters);
     const bool other_guide = p.cell != p_.cell || p.A != p_.A || p.B != p_.B ||
