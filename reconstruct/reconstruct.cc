@@ -12,6 +12,7 @@
 #include "reconstruct/initialize/reference_axes.h"
 #include "reconstruct/initialize/scale_guess.h"
 #include "reconstruct/orientation.h"
+#include "reconstruct/report_text.h"
 #include "simulate/core/check.h"
 #include "simulate/core/options.h"
 
@@ -103,84 +104,6 @@ Trajectories Assemble(const ReferenceAxes& axes, const Knowledge& knowledge,
   return result;
 }
 
-std::string Percent(double share) {
-  const long tenths = std::lround(share * 1000);
-  return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " %";
-}
-
-// The image of a flock that flies straight past shows almost nothing of relative depth but speed.
-double MedianTurn(const std::vector<SolvedPath>& paths) {
-  std::vector<double> turns;
-  for (const SolvedPath& path : paths) {
-    if (path.size() < 2) continue;
-    const Vec3d a = Normalized(path.front().velocity_in_cam);
-    const Vec3d b = Normalized(path.back().velocity_in_cam);
-    const Vec3d m = Normalized(path[path.size() / 2].velocity_in_cam);
-    const auto angle = [](const Vec3d& u, const Vec3d& v) {
-      return std::acos(std::clamp(Dot(u, v), -1.0, 1.0));
-    };
-    turns.push_back(std::max(angle(a, m) + angle(m, b), angle(a, b)));
-  }
-  if (turns.empty()) return 0;
-  std::sort(turns.begin(), turns.end());
-  return turns[turns.size() / 2];
-}
-
-std::string DescribeObservability(const Knowledge& knowledge, const Segments& segments,
-                                  const BatchResult& batch, const ReconstructReport& report) {
-  bool sizes = false;
-  for (const Segment& segment : segments.segments) {
-    for (const Sighting& s : segment.sightings) sizes |= s.log_size.has_value();
-  }
-  constexpr double kStraight = 30 * kDegree;
-  const bool straight = MedianTurn(batch.paths) < kStraight;
-  std::string text = "relative depth rests on ";
-  text += sizes ? "apparent size and image speed" : "image speed";
-  text += straight ? "; the paths are nearly straight, so perspective along them says little"
-                   : " and on perspective along curved paths";
-  if (knowledge.up_in_cam) text += "; level flight helps";
-  if (batch.report.stiff_boxes > 0.5) text += "; boxes are as large from every side";
-  text += "; median relative sd " + Percent(report.relative_sd) + ", common scale " +
-          Percent(report.scale_sd) + " (" + report.scale_from + ")";
-  return text;
-}
-
-// Which solution was kept, and by how much.
-std::string DescribeDynamics(const DynamicsReport& d) {
-  const auto rounded = [](double value) {
-    const long hundredths = std::lround(value * 100);
-    return std::to_string(hundredths / 100) + (hundredths % 100 < 10 ? ".0" : ".") +
-           std::to_string(hundredths % 100);
-  };
-  if (d.windows == 0) return "; forces untested: no track is long enough to hide a part of it";
-  return "; forces count in " + std::to_string(d.kept) + " of " + std::to_string(d.windows) +
-         " windows" + (d.kept > 0 ? ", by " + Percent(d.weight) : "") + " (" +
-         std::to_string(d.hidden) + " hidden sightings predicted to " + rounded(d.dynamics_error) +
-         " with forces, " + rounded(d.batch_error) + " without)";
-}
-
-// By how much the two that fix the scale are apart, as the tracks tell it; sd of what sizes tell.
-std::string SpeedBySizes(const Uncertain& apart) {
-  return "by the sizes the flock flies " + Percent(std::abs(std::expm1(apart.mean))) +
-         (apart.mean > 0 ? " faster" : " slower") + " than stated (sd " + Percent(apart.sd) + ")";
-}
-
-// The stated speed lies outside what the sizes say, however little it is trusted itself.
-void WarnOfDisagreement(const Uncertain& apart, std::vector<std::string>* warnings) {
-  if (!(std::abs(apart.mean) > apart.sd)) return;
-  warnings->push_back("speed and wingspan disagree: " + SpeedBySizes(apart) +
-                      "; the scale is a compromise");
-}
-
-void WarnOfSecondCamera(const SecondCameraReport& second, std::vector<std::string>* warnings) {
-  const std::string counts =
-      std::to_string(second.matched) + " of the second camera's " + std::to_string(second.tracks);
-  if (2 * second.matched < second.tracks) {
-    warnings->push_back("only " + counts +
-                        " tracks show an animal of the first; check both poses and the clocks");
-  }
-}
-
 }  // namespace
 
 const char* NameOf(ReconstructMethod method) {
@@ -237,7 +160,7 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
     Check(is_batch, "a second camera needs the method batch or dynamics");
     report.second_camera =
         AttachViews(*options.second_camera, segment_options, axes, span.first, fps, &segments);
-    WarnOfSecondCamera(*report.second_camera, &report.warnings);
+    internal::WarnOfSecondCamera(*report.second_camera, &report.warnings);
     Check(report.second_camera->views > 0 || FixesScale(options.knowledge),
           "no track of the second camera shows an animal of the first, and nothing else fixes the "
           "scale; check both poses and the clocks, or give --speed or --wingspan");
@@ -297,13 +220,11 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   if (!report.converged) {
     report.warnings.push_back("the solver stopped before the cost stood still");
   }
-  report.observability = DescribeObservability(knowledge, segments, batch, report);
   if (knowledge.speed && knowledge.wingspan && knowledge.use_size) {
     report.speed_by_sizes = batch.report.speed_against_size;
-    WarnOfDisagreement(*report.speed_by_sizes, &report.warnings);
-    report.observability += "; " + SpeedBySizes(*report.speed_by_sizes);
+    internal::WarnOfDisagreement(*report.speed_by_sizes, &report.warnings);
   }
-  if (report.dynamics) report.observability += DescribeDynamics(*report.dynamics);
+  report.observability = internal::DescribeSolution(knowledge, segments, batch, report);
   result.trajectories = Assemble(axes, knowledge, segments, batch.paths, fps, true);
   return result;
 }
