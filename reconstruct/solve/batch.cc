@@ -92,7 +92,7 @@ void Merge(const BatchReport& window, double share, BatchReport* report) {
 
 BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
                        const Segments& segments, double fps, int threads, const Progress& progress,
-                       const std::filesystem::path& checkpoint, const WindowRefiner& refine) {
+                       const std::filesystem::path& checkpoint, const Refinement& refinement) {
   BatchResult result;
   if (segments.segments.empty()) return result;
   Check(options.overlap < options.window, "solve-overlap must be less than solve-window");
@@ -108,8 +108,8 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
     known.push_back(KnownIn(PartOf(segments, window, fps, first_frame), knowledge));
     rows += static_cast<double>(known.back().second);
   }
-  const int iterations =
-      kStartIterations + kSpreadRounds * kSpreadIterations + options.max_iterations;
+  const std::int64_t iterations = kStartIterations + kSpreadRounds * kSpreadIterations +
+                                  options.max_iterations + refinement.iterations;
   const std::int64_t total = static_cast<std::int64_t>(windows.size()) * iterations;
   std::int64_t done = 0;
   std::optional<Belief> belief;
@@ -125,7 +125,7 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
     if (!kept) {
       kept = SolveWindow(
           options, knowledge, part.segments, belief, part.first_frame, fps, threads,
-          [&] { Report(progress, done + here++, total); }, refine);
+          [&] { Report(progress, done + std::min(here++, iterations), total); }, refinement.refine);
       store.Keep(w, *kept);
     }
     const SolvedWindow& solved = *kept;

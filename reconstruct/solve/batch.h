@@ -28,7 +28,13 @@ namespace flocklift {
 
 namespace internal {
 struct WindowToRefine;  // window_solver.h
-}
+
+// A method that goes on from the batch solution of every window.
+struct Refinement {
+  std::function<void(const WindowToRefine&)> refine;
+  int iterations = 0;  // of solvers that it takes, about
+};
+}  // namespace internal
 
 // How well one kind of residual is met at the solution, in units of its sd.
 struct TermStatistics {
@@ -58,14 +64,13 @@ struct BatchResult {
   BatchReport report;
 };
 
-// `refine`, where there is one, goes on from the batch solution of every window (window_solver.h).
 // Anchors and up_in_cam of `knowledge` are in the axes of the reference camera. Every sighting gets
 // a finite point, however little is known of it. A long sequence keeps the windows it has solved in
 // the file `checkpoint` (empty: nowhere) until it is done: a killed run goes on to the same bytes.
 BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
                        const Segments& segments, double fps, int threads, const Progress& progress,
                        const std::filesystem::path& checkpoint = {},
-                       const std::function<void(const internal::WindowToRefine&)>& refine = {});
+                       const internal::Refinement& refinement = {});
 
 }  // namespace flocklift
 

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -91,7 +92,13 @@ struct BatchModel {
   FlockCurve depth;              // log depth of the flock's middle
   FlockCurve turn;               // its common acceleration [m/s^2]
 
+  // Solvers call it before every iteration, from one thread at a time; may be empty.
+  std::function<void()> on_iteration = {};
+
   int shared() const { return turn.end(); }
+  void CountIteration() const {
+    if (on_iteration) on_iteration();
+  }
 };
 
 // Hands every whitened residual of one bird to `take`, with derivatives when asked.

@@ -110,14 +110,13 @@ bool BatchSolver::Step(const Eigen::VectorXd& shared_step, const Eigen::VectorXd
   return w->candidate_cost < std::numeric_limits<double>::infinity();
 }
 
-bool BatchSolver::Minimize(int max_iterations, const Standstill& standstill, int* iterations,
-                           const std::function<void()>& on_iteration) {
+bool BatchSolver::Minimize(int max_iterations, const Standstill& standstill, int* iterations) {
   constexpr double kRounding = 1e-8;  // of the cost
   double cost = Cost();
   for (std::size_t i = 0; i < work_.size(); ++i) work_[i].candidate = state_.birds[i];
   int still = 0;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    if (on_iteration) on_iteration();
+    state_.model.CountIteration();
     ++*iterations;
     Assemble();
     Eigen::MatrixXd matrix;

@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "reconstruct/solve/arrow_system.h"
@@ -56,8 +55,7 @@ class BatchSolver {
   };
 
   // Until the cost stands still. Returns whether it did; counts the iterations.
-  bool Minimize(int max_iterations, const Standstill& standstill, int* iterations,
-                const std::function<void()>& on_iteration);
+  bool Minimize(int max_iterations, const Standstill& standstill, int* iterations);
 
   // One animal by itself, the flock's unknowns as they are, until its cost stands still. Returns
   // the cost.

@@ -218,6 +218,7 @@ void CoupledFlock::HoldSeparation(double share) {
 void CoupledFlock::FitForces(int max_iterations) {
   double damping = kFirstDamping, cost = Cost();
   for (int iteration = 0; iteration < max_iterations && damping < kMostDamping; ++iteration) {
+    model_.CountIteration();
     Linearize();
     const int n = forces.size();
     Eigen::MatrixXd matrix = priors_.bottomRightCorner(n, n);
@@ -243,6 +244,7 @@ bool CoupledFlock::Minimize(int max_iterations, const Effort& effort) {
   bool linearized = false;
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     if (damping > kMostDamping) return true;
+    model_.CountIteration();
     if (!linearized) Linearize();
     linearized = true;
     if (!Factorise(damping)) {

@@ -22,8 +22,9 @@ using namespace internal;  // NOLINT: the method's own parts
 // Probability from which on forces count: odds of the root of 10, from which on evidence is
 // "substantial" (Jeffreys, Theory of Probability, 1961).
 constexpr double kSubstantial = 0.76;
-constexpr double kUnsure = 1.4;  // errors over what the linearised posterior says, as measured
-constexpr double kOpen = 0.7;    // of what two starts are apart, as measured
+constexpr double kUnsure = 1.4;   // errors over what the linearised posterior says, as measured
+constexpr double kOpen = 0.7;     // of what two starts are apart, as measured
+constexpr int kIterations = 350;  // of solvers in a window, about
 
 // Where the common scale drifts while forces are found, it is not because forces know it: it stays
 // that of the batch solution.
@@ -178,7 +179,7 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     // The batch solution without what a fold hides.
     const auto without = [&](const HiddenSightings& hidden, const WindowRefiner& go_on) {
       SolveWindow(batch_options, knowledge, hidden.rest(), window.belief, window.first_frame, fps,
-                  threads, {}, go_on);
+                  threads, window.model.on_iteration, go_on);
     };
     for (int fold = 0; fold == 0 || test.WantsMore(fold, options.hidden); ++fold) {
       const HiddenSightings hidden(options.hidden, options.hidden_time, fps, window.segments, fold);
@@ -223,7 +224,8 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     Approach(weight, flock.shared, window.shared);
     Describe(flock, &report);
   };
-  result.batch = SolveBatch(batch_options, knowledge, segments, fps, threads, progress, {}, refine);
+  result.batch = SolveBatch(batch_options, knowledge, segments, fps, threads, progress, {},
+                            {refine, kIterations});
   if (report.kept > 0) report.weight /= report.kept;
   if (report.hidden > 0) {
     report.batch_error = batch_sum / static_cast<double>(report.hidden);

@@ -228,6 +228,7 @@ double OneAnimal::Minimize(int max_iterations) {
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(shared);
   double cost = Cost(), damping = kFirstDamping;
   bool linearized = false;
+  flock_.model_.CountIteration();
   for (int iteration = 0; iteration < max_iterations && damping < kMostDamping; ++iteration) {
     if (!linearized) Linearize();
     linearized = true;

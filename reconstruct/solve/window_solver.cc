@@ -151,6 +151,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   const ScaleGuess guess = WithBelief(GuessScale(knowledge, segments), knowledge, belief);
   BatchState state;
   state.model = MakeModel(options, knowledge, segments, guess, belief, fps);
+  state.model.on_iteration = on_iteration;
   state.shared = StartOfShared(state.model);
   state.birds.resize(segments.segments.size());
   ParallelFor(threads, 0, static_cast<std::int64_t>(state.birds.size()), 1,
@@ -165,7 +166,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   report.initial_cost = solver.Cost();
   const auto minimize = [&](int most, const BatchSolver::Standstill& standstill) {
     report.converged = solver.Minimize(std::min(most, options.max_iterations), standstill,
-                                       &report.iterations, on_iteration);
+                                       &report.iterations);
   };
   // In units of log likelihood. While the spreads change there is less to wait for.
   const double animals = static_cast<double>(state.birds.size());

@@ -7,7 +7,9 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "reconstruct/solve/coupled_flock.h"
@@ -245,6 +247,24 @@ TEST(Dynamics, LeavesBatchAloneWhereForcesAreNotKept) {
   } else {
     EXPECT_LT(dynamics.report.dynamics_error, dynamics.report.batch_error);
   }
+}
+
+TEST(Dynamics, TellsOfProgressWhileForcesAreFound) {
+  const FlockSpec spec{.count = 6, .frames = 90};
+  const Segments segments = Seen(spec);
+  const auto steps = [](std::set<std::int64_t>* done) {
+    return [done](std::int64_t now, std::int64_t total) {
+      EXPECT_LE(now, total);
+      if (!done->empty()) {
+        EXPECT_GE(now, *done->rbegin());
+      }
+      done->insert(now);
+    };
+  };
+  std::set<std::int64_t> batch, dynamics;
+  SolveBatch({}, Known(spec), segments, kFps, 1, steps(&batch));
+  SolveDynamics({.hidden_time = 0.8}, {}, Known(spec), segments, kFps, 1, steps(&dynamics));
+  EXPECT_GT(dynamics.size(), 3 * batch.size());
 }
 
 TEST(Dynamics, ShortTracksAreLeftToBatch) {
