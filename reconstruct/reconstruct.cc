@@ -201,10 +201,9 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   }
   BatchResult batch;
   if (options.method == ReconstructMethod::kDynamics) {
-    DynamicsResult dynamics =
-        SolveDynamics(options.dynamics, options.batch, knowledge, segments, fps, threads, progress);
-    batch = std::move(dynamics.batch);
-    report.dynamics = std::move(dynamics.report);
+    batch = SolveDynamics(options.dynamics, options.batch, knowledge, segments, fps, threads,
+                          progress, options.checkpoint);
+    report.dynamics = batch.report.dynamics;
   } else {
     batch =
         SolveBatch(options.batch, knowledge, segments, fps, threads, progress, options.checkpoint);

@@ -43,8 +43,9 @@ struct ReconstructOptions {
   DynamicsOptions dynamics;
   CobylaOptions cobyla;  // speed, near and far follow `knowledge` where it has them
   std::optional<SecondCamera> second_camera;
-  FirstDepths cobyla_first_depths;        // of the first frame, by id [m]
-  std::filesystem::path checkpoint = {};  // file that a killed batch goes on from; empty: none
+  FirstDepths cobyla_first_depths;  // of the first frame, by id [m]
+  // File that a killed run of batch or dynamics goes on from; empty: none.
+  std::filesystem::path checkpoint = {};
 };
 
 struct ReconstructReport {

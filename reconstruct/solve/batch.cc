@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "reconstruct/solve/fingerprint.h"
 #include "reconstruct/solve/window_solver.h"
 #include "reconstruct/solve/window_store.h"
 #include "reconstruct/solve/windows.h"
@@ -86,6 +87,7 @@ void Merge(const BatchReport& window, double share, BatchReport* report) {
     same->outliers = (n * same->outliers + m * term.outliers) / (n + m);
     same->count += term.count;
   }
+  Merge(window.dynamics, &report->dynamics);
 }
 
 }  // namespace
@@ -114,8 +116,9 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
   std::int64_t done = 0;
   std::optional<Belief> belief;
   const bool is_long = windows.size() > 1 && !checkpoint.empty();
-  WindowStore store(is_long ? checkpoint : std::filesystem::path{},
-                    is_long ? FingerprintOf(options, knowledge, segments, fps) : 0);
+  WindowStore store(
+      is_long ? checkpoint : std::filesystem::path{},
+      is_long ? FingerprintOf(options, knowledge, segments, fps, refinement.fingerprint) : 0);
   result.report.converged = true;
   for (const std::size_t w : OrderOf(known)) {
     const WindowPart part = PartOf(segments, windows[w], fps, first_frame);

@@ -12,6 +12,7 @@
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_H_
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -21,6 +22,7 @@
 #include "reconstruct/initialize/segments.h"
 #include "reconstruct/knowledge.h"
 #include "reconstruct/solve/batch_options.h"
+#include "reconstruct/solve/dynamics_report.h"
 #include "reconstruct/solve/solved_path.h"
 #include "simulate/core/progress.h"
 
@@ -32,7 +34,8 @@ struct WindowToRefine;  // window_solver.h
 // A method that goes on from the batch solution of every window.
 struct Refinement {
   std::function<void(const WindowToRefine&)> refine;
-  int iterations = 0;  // of solvers that it takes, about
+  std::uint64_t fingerprint = 0;  // of the method and its options (fingerprint.h)
+  int iterations = 0;             // of solvers that it takes, about
 };
 }  // namespace internal
 
@@ -57,6 +60,7 @@ struct BatchReport {
                                  // (size_model.h); 0 where no wingspan is known
   std::vector<std::pair<std::string, double>> spreads;  // estimated
   std::vector<TermStatistics> terms;
+  DynamicsReport dynamics;  // where forces were tried (dynamics.h)
 };
 
 struct BatchResult {

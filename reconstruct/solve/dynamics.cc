@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "reconstruct/solve/coupled_flock.h"
+#include "reconstruct/solve/fingerprint.h"
 #include "reconstruct/solve/force_search.h"
 #include "reconstruct/solve/hidden_sightings.h"
 #include "reconstruct/solve/window_solver.h"
@@ -164,15 +167,21 @@ void Describe(const FollowedFlock& flock, DynamicsReport* report) {
       {"goal", f[kLogGoal]},      {"goal_range", f[kLogRange]}, {"noise", flock.noise.sd}};
 }
 
+std::uint64_t FingerprintOf(const DynamicsOptions& options) {
+  Hash hash;
+  hash.Add(std::string_view("dynamics"));
+  DynamicsOptions described = options;
+  Describe(hash, described);
+  return hash.value();
+}
+
 }  // namespace
 
-DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& batch_options,
-                             const Knowledge& knowledge, const Segments& segments, double fps,
-                             int threads, const Progress& progress) {
+BatchResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& batch_options,
+                          const Knowledge& knowledge, const Segments& segments, double fps,
+                          int threads, const Progress& progress,
+                          const std::filesystem::path& checkpoint) {
   CheckOptions(options);
-  DynamicsResult result;
-  DynamicsReport& report = result.report;
-  double batch_sum = 0, dynamics_sum = 0;
   const WindowRefiner refine = [&](const WindowToRefine& window) {
     Test test;
     FollowedFlock flock;
@@ -202,10 +211,11 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
       });
       if (fold == 0) flock.birds = OnPathsOf(*window.birds, flock.birds);
     }
-    ++report.windows;
-    report.hidden += test.count;
-    batch_sum += MeanOf(test.batch_errors) * static_cast<double>(test.count);
-    dynamics_sum += MeanOf(test.errors) * static_cast<double>(test.count);
+    DynamicsReport& report = *window.report;
+    report.windows = 1;
+    report.hidden = test.count;
+    report.batch_error = MeanOf(test.batch_errors);
+    report.dynamics_error = MeanOf(test.errors);
     const double better = ProbabilityOfBetter(test.errors, test.batch_errors, test.odds);
     if (!(better > kSubstantial)) return;
     const CoupledFlock::DepthSds sds = Polish(window.model, &flock);
@@ -214,8 +224,8 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     const Both both = SideBySide(window, sds, flock.birds);
     const double weight = better * both.LeastVarianceShare();
     if (!(weight > 0)) return;
-    ++report.kept;
-    report.weight += weight;
+    report.kept = 1;
+    report.weight = weight;
     *window.posterior = both.Mixed(weight, flock.apart);
     for (std::size_t i = 0; i < flock.birds.size(); ++i) {
       Approach(weight, flock.birds[i].path, &(*window.birds)[i].path);
@@ -224,14 +234,8 @@ DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions&
     Approach(weight, flock.shared, window.shared);
     Describe(flock, &report);
   };
-  result.batch = SolveBatch(batch_options, knowledge, segments, fps, threads, progress, {},
-                            {refine, kIterations});
-  if (report.kept > 0) report.weight /= report.kept;
-  if (report.hidden > 0) {
-    report.batch_error = batch_sum / static_cast<double>(report.hidden);
-    report.dynamics_error = dynamics_sum / static_cast<double>(report.hidden);
-  }
-  return result;
+  return SolveBatch(batch_options, knowledge, segments, fps, threads, progress, checkpoint,
+                    {refine, FingerprintOf(options), kIterations});
 }
 
 }  // namespace flocklift

@@ -15,6 +15,8 @@
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
 
+#include <filesystem>
+
 #include "reconstruct/solve/batch.h"
 
 namespace flocklift {
@@ -39,26 +41,11 @@ void Describe(Visitor& visit, DynamicsOptions& o) {
   visit("rounds", o.rounds, {.low = 1, .high = 20}, "", "of estimating the noise");
 }
 
-// What came of it, over all windows.
-struct DynamicsReport {
-  int windows = 0, kept = 0;  // tried, and with forces
-  double weight = 0;          // of the solution with forces where it counts, on average
-  long hidden = 0;            // sightings
-  double batch_error = 0;     // mean error of the predicted image positions, in their sds
-  double dynamics_error = 0;
-  // Of the last window with forces: by the names of boids, `goal` for the goal's weight, `drive`
-  // for the cruising speed over the mean speed.
-  std::vector<std::pair<std::string, double>> forces;
-};
-
-struct DynamicsResult {
-  BatchResult batch;  // with forces where these count
-  DynamicsReport report;
-};
-
-DynamicsResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& batch,
-                             const Knowledge& knowledge, const Segments& segments, double fps,
-                             int threads, const Progress& progress);
+// The batch method's result, with forces where these count, and BatchReport::dynamics.
+BatchResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& batch,
+                          const Knowledge& knowledge, const Segments& segments, double fps,
+                          int threads, const Progress& progress,
+                          const std::filesystem::path& checkpoint = {});
 
 }  // namespace flocklift
 

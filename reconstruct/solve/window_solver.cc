@@ -165,8 +165,8 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   BatchSolver solver(&state, threads);
   report.initial_cost = solver.Cost();
   const auto minimize = [&](int most, const BatchSolver::Standstill& standstill) {
-    report.converged = solver.Minimize(std::min(most, options.max_iterations), standstill,
-                                       &report.iterations);
+    report.converged =
+        solver.Minimize(std::min(most, options.max_iterations), standstill, &report.iterations);
   };
   // In units of log likelihood. While the spreads change there is less to wait for.
   const double animals = static_cast<double>(state.birds.size());
@@ -210,7 +210,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
       return all;
     };
     refine({segments, belief, first_frame, state.model, &state.birds, &state.shared, &posterior,
-            variances});
+            variances, &report.dynamics});
   }
   report.final_cost = solver.Cost();
   const Eigen::MatrixXd covariance = ReadOut(&state, &solver, &solved.result);

@@ -38,7 +38,7 @@ struct DepthPosterior {
 };
 
 // A window when the batch method is done with it, for a method that goes on from there and leaves
-// its own paths, and their posterior where that is not the batch method's.
+// its own paths, their posterior where that is not the batch method's, and its report.
 struct WindowToRefine {
   const Segments& segments;
   const std::optional<Belief>& belief;
@@ -50,6 +50,7 @@ struct WindowToRefine {
   // How sure the batch method is itself: variances of the log depth at every sighting, by segment,
   // that of the common scale taken out.
   std::function<std::vector<std::vector<double>>()> variances;
+  DynamicsReport* report = nullptr;
 };
 using WindowRefiner = std::function<void(const WindowToRefine&)>;
 

@@ -9,10 +9,8 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 
-#include "simulate/core/options.h"
 #include "simulate/core/state_archive.h"
 
 namespace flocklift::internal {
@@ -20,48 +18,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// FNV-1a, 64 bit (Fowler, Noll and Vo, 1991).
-class Hash {
- public:
-  void AddBytes(const void* bytes, std::size_t size) {
-    const auto* at = static_cast<const unsigned char*>(bytes);
-    for (std::size_t k = 0; k < size; ++k) value_ = (value_ ^ at[k]) * 0x100000001b3;
-  }
-  template <typename T>
-  void Add(const T& value) {
-    static_assert(std::is_arithmetic_v<T>);
-    AddBytes(&value, sizeof value);
-  }
-  void Add(const Vec3d& v) {
-    for (const double x : {v.x, v.y, v.z}) Add(x);
-  }
-  void Add(const Uncertain& u) {
-    Add(u.mean);
-    Add(u.sd);
-  }
-  template <typename T>
-  void Add(const std::optional<T>& value) {
-    Add(value.has_value());
-    if (value) Add(*value);
-  }
-  // As a visitor of Describe.
-  template <typename T>
-  void operator()(std::string_view /*name*/, const T& value, Range /*range*/,
-                  std::string_view /*unit*/, std::string_view /*help*/) {
-    Add(value);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325;
-};
-
 // Names are short; the rest is cut off.
 using Name = std::array<char, 48>;
 Name NameFrom(const std::string& text) {
   Name name{};
   text.copy(name.data(), name.size() - 1);
   return name;
+}
+
+using Named = std::vector<std::pair<std::string, double>>;
+void PutNamed(const Named& values, StateWriter* out) {
+  out->Put(static_cast<std::uint64_t>(values.size()));
+  for (const auto& [name, value] : values) {
+    out->Put(NameFrom(name));
+    out->Put(value);
+  }
 }
 
 std::string BytesOf(const SolvedWindow& solved) {
@@ -76,17 +47,18 @@ std::string BytesOf(const SolvedWindow& solved) {
   out.Put(r.iterations);
   out.Put(r.converged);
   out.Put(std::array{r.flock_speed, r.size_ratio, r.lean, r.speed_against_size});
-  out.Put(static_cast<std::uint64_t>(r.spreads.size()));
-  for (const auto& [name, value] : r.spreads) {
-    out.Put(NameFrom(name));
-    out.Put(value);
-  }
+  PutNamed(r.spreads, &out);
   out.Put(static_cast<std::uint64_t>(r.terms.size()));
   for (const TermStatistics& term : r.terms) {
     out.Put(NameFrom(term.name));
     out.Put(term.count);
     out.Put(std::array{term.rms, term.outliers});
   }
+  const DynamicsReport& d = r.dynamics;
+  out.Put(std::array{d.windows, d.kept});
+  out.Put(d.hidden);
+  out.Put(std::array{d.weight, d.batch_error, d.dynamics_error});
+  PutNamed(d.forces, &out);
   for (const double x : solved.belief.mean) out.Put(x);
   for (const double x : solved.belief.information.reshaped()) out.Put(x);
   return out.bytes();
@@ -111,12 +83,15 @@ SolvedWindow WindowFrom(std::string_view bytes) {
   in.Take(&r.converged);
   for (Uncertain* u : {&r.flock_speed, &r.size_ratio, &r.lean, &r.speed_against_size}) in.Take(u);
   Name name{};
-  r.spreads.resize(size());
-  for (auto& [text, value] : r.spreads) {
-    in.Take(&name);
-    text = name.data();
-    in.Take(&value);
-  }
+  const auto take_named = [&](Named* values) {
+    values->resize(size());
+    for (auto& [text, value] : *values) {
+      in.Take(&name);
+      text = name.data();
+      in.Take(&value);
+    }
+  };
+  take_named(&r.spreads);
   r.terms.resize(size());
   for (TermStatistics& term : r.terms) {
     in.Take(&name);
@@ -125,51 +100,17 @@ SolvedWindow WindowFrom(std::string_view bytes) {
     in.Take(&term.rms);
     in.Take(&term.outliers);
   }
+  DynamicsReport& d = r.dynamics;
+  for (int* n : {&d.windows, &d.kept}) in.Take(n);
+  in.Take(&d.hidden);
+  for (double* x : {&d.weight, &d.batch_error, &d.dynamics_error}) in.Take(x);
+  take_named(&d.forces);
   for (double& x : solved.belief.mean) in.Take(&x);
   for (double& x : solved.belief.information.reshaped()) in.Take(&x);
   return solved;
 }
 
 }  // namespace
-
-std::uint64_t FingerprintOf(const BatchOptions& options, const Knowledge& knowledge,
-                            const Segments& segments, double fps) {
-  Hash hash;
-  const std::string_view version = FLOCKLIFT_VERSION;
-  hash.AddBytes(version.data(), version.size());
-  hash.Add(fps);
-  BatchOptions described = options;
-  Describe(hash, described);
-  hash.Add(knowledge.speed);
-  hash.Add(knowledge.wingspan);
-  hash.Add(knowledge.near);
-  hash.Add(knowledge.far);
-  hash.Add(knowledge.use_size);
-  hash.Add(knowledge.up_in_cam);
-  for (const Anchor& anchor : knowledge.anchors) {
-    hash.Add(anchor.frame);
-    hash.Add(anchor.id);
-    hash.Add(anchor.position);
-    hash.Add(anchor.sd);
-  }
-  for (const Vec3d& place : segments.camera_places) hash.Add(place);
-  for (const Segment& segment : segments.segments) {
-    hash.Add(segment.id);
-    for (const View& view : segment.views) {
-      for (const double x : {view.time, view.ray.x, view.ray.y, view.ray_sd}) hash.Add(x);
-      for (const double x : view.view_from_ref.rotation.m) hash.Add(x);
-      hash.Add(view.view_from_ref.translation);
-    }
-    for (const Sighting& s : segment.sightings) {
-      hash.Add(s.frame);
-      hash.Add(s.ray.x);
-      hash.Add(s.ray.y);
-      hash.Add(s.ray_sd);
-      hash.Add(s.log_size);
-    }
-  }
-  return hash.value();
-}
 
 // The file: the fingerprint, then for each window its number, the size of its bytes, and these.
 WindowStore::WindowStore(fs::path path, std::uint64_t fingerprint) : path_(std::move(path)) {

@@ -18,14 +18,10 @@
 
 namespace flocklift::internal {
 
-// A number that another problem has with a chance of 1 in 2^64.
-std::uint64_t FingerprintOf(const BatchOptions& options, const Knowledge& knowledge,
-                            const Segments& segments, double fps);
-
 class WindowStore {
  public:
-  // Reads where the windows are. An empty path keeps nothing. Throws std::runtime_error when the
-  // file can be neither read nor made.
+  // Reads where the windows are of a run with this fingerprint (fingerprint.h). An empty path keeps
+  // nothing. Throws std::runtime_error when the file can be neither read nor made.
   WindowStore(std::filesystem::path path, std::uint64_t fingerprint);
 
   std::optional<SolvedWindow> Find(std::size_t window);

@@ -205,13 +205,12 @@ TEST(CoupledFlock, ItsDepthsAreAsCertainAsItsNoiseLetsThemBe) {
             });
 }
 
-std::map<std::pair<Id, int>, double> Depths(const DynamicsResult& result,
-                                            const Segments& segments) {
+std::map<std::pair<Id, int>, double> Depths(const BatchResult& result, const Segments& segments) {
   std::map<std::pair<Id, int>, double> depths;
   for (std::size_t i = 0; i < segments.segments.size(); ++i) {
     for (std::size_t k = 0; k < segments.segments[i].sightings.size(); ++k) {
       depths[{segments.segments[i].id, segments.segments[i].sightings[k].frame}] =
-          result.batch.paths[i][k].position_in_cam.z;
+          result.paths[i][k].position_in_cam.z;
     }
   }
   return depths;
@@ -234,18 +233,17 @@ TEST(Dynamics, GivesTheSameAtAnyNumberOfThreadsAndAlwaysADepth) {
 TEST(Dynamics, LeavesBatchAloneWhereForcesAreNotKept) {
   const FlockSpec spec{.count = 6, .frames = 120};
   const Segments segments = Seen(spec);
-  const DynamicsResult dynamics =
-      SolveDynamics({.rounds = 1}, {}, Known(spec), segments, kFps, 1, {});
-  EXPECT_EQ(dynamics.report.windows, 1);
-  EXPECT_GT(dynamics.report.hidden, 0.3 * segments.rows);  // of .2 in one fold
-  if (dynamics.report.kept == 0) {
+  const BatchResult dynamics = SolveDynamics({.rounds = 1}, {}, Known(spec), segments, kFps, 1, {});
+  EXPECT_EQ(dynamics.report.dynamics.windows, 1);
+  EXPECT_GT(dynamics.report.dynamics.hidden, 0.3 * segments.rows);  // of .2 in one fold
+  if (dynamics.report.dynamics.kept == 0) {
     const BatchResult batch = SolveBatch({}, Known(spec), segments, kFps, 1, {});
     for (std::size_t i = 0; i < batch.paths.size(); ++i) {
       EXPECT_EQ(batch.paths[i].back().position_in_cam.z,
-                dynamics.batch.paths[i].back().position_in_cam.z);
+                dynamics.paths[i].back().position_in_cam.z);
     }
   } else {
-    EXPECT_LT(dynamics.report.dynamics_error, dynamics.report.batch_error);
+    EXPECT_LT(dynamics.report.dynamics.dynamics_error, dynamics.report.dynamics.batch_error);
   }
 }
 
@@ -270,9 +268,9 @@ TEST(Dynamics, TellsOfProgressWhileForcesAreFound) {
 TEST(Dynamics, ShortTracksAreLeftToBatch) {
   const FlockSpec spec{.count = 3, .frames = 6};
   const Segments segments = Seen(spec);
-  const DynamicsResult result = SolveDynamics({}, {}, Known(spec), segments, kFps, 1, {});
-  EXPECT_EQ(result.report.windows, 0);
-  EXPECT_EQ(result.batch.paths.size(), segments.segments.size());
+  const BatchResult result = SolveDynamics({}, {}, Known(spec), segments, kFps, 1, {});
+  EXPECT_EQ(result.report.dynamics.windows, 0);
+  EXPECT_EQ(result.paths.size(), segments.segments.size());
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "reconstruct/solve/dynamics.h"
 #include "tests/reconstruct/circling_flock.h"
 
 namespace flocklift {
@@ -33,6 +34,10 @@ class WindowStoreTest : public testing::Test {
   BatchResult Solve(const fs::path& checkpoint, const Progress& progress) const {
     return SolveBatch(options_, knowledge_, segments_, flock_.fps, 1, progress, checkpoint);
   }
+  BatchResult SolveWithForces(const fs::path& checkpoint, const Progress& progress) const {
+    return SolveDynamics(dynamics_, options_, knowledge_, segments_, flock_.fps, 1, progress,
+                         checkpoint);
+  }
 
   const fs::path path_ = fs::path(testing::TempDir()) / "window_store_test";
   FlockSpec flock_{.count = 3, .frames = 300};  // 10 s: five windows
@@ -41,7 +46,16 @@ class WindowStoreTest : public testing::Test {
       MakeSegments({}, Observe(flock_, {}, CirclingFlock(flock_), camera_), camera_, flock_.fps);
   Knowledge knowledge_;
   BatchOptions options_;
+  DynamicsOptions dynamics_{.hidden = 0.5, .hidden_time = 0.4, .rounds = 1};
 };
+
+struct Kill {};
+// Kills what reports when it is more than so far.
+Progress KilledAt(double share) {
+  return [share](std::int64_t done, std::int64_t total) {
+    if (static_cast<double>(done) > share * static_cast<double>(total)) throw Kill();
+  };
+}
 
 void ExpectSame(const BatchResult& a, const BatchResult& b) {
   ASSERT_EQ(a.paths.size(), b.paths.size());
@@ -61,18 +75,21 @@ void ExpectSame(const BatchResult& a, const BatchResult& b) {
     EXPECT_EQ(a.report.terms[k].count, b.report.terms[k].count);
     EXPECT_EQ(a.report.terms[k].rms, b.report.terms[k].rms);
   }
+  const DynamicsReport &d = a.report.dynamics, &e = b.report.dynamics;
+  EXPECT_EQ(d.windows, e.windows);
+  EXPECT_EQ(d.kept, e.kept);
+  EXPECT_EQ(d.hidden, e.hidden);
+  EXPECT_EQ(d.weight, e.weight);
+  EXPECT_EQ(d.batch_error, e.batch_error);
+  EXPECT_EQ(d.dynamics_error, e.dynamics_error);
+  EXPECT_EQ(d.forces, e.forces);
 }
 
 TEST_F(WindowStoreTest, AKilledRunGoesOnToTheSameBytes) {
   long whole_steps = 0, rest_steps = 0;
   const BatchResult whole = Solve({}, [&](auto, auto) { ++whole_steps; });
   EXPECT_FALSE(fs::exists(path_));
-  struct Kill {};
-  EXPECT_THROW(Solve(path_,
-                     [&](std::int64_t done, std::int64_t total) {
-                       if (done > total / 2) throw Kill();
-                     }),
-               Kill);
+  EXPECT_THROW(Solve(path_, KilledAt(0.5)), Kill);
   ASSERT_TRUE(fs::exists(path_));
   // The kill came in the middle of a write.
   const std::uintmax_t size = fs::file_size(path_);
@@ -84,22 +101,51 @@ TEST_F(WindowStoreTest, AKilledRunGoesOnToTheSameBytes) {
   EXPECT_FALSE(fs::exists(path_));
 }
 
+// What is said of forces is kept too. The first three windows of five are not solved again.
+TEST_F(WindowStoreTest, AKilledRunWithForcesGoesOnToTheSameBytes) {
+  std::int64_t first = -1;
+  const BatchResult whole = SolveWithForces({}, {});
+  EXPECT_EQ(whole.report.dynamics.windows, 5);
+  EXPECT_GT(whole.report.dynamics.kept, 0);
+  EXPECT_THROW(SolveWithForces(path_, KilledAt(0.605)), Kill);
+  ASSERT_TRUE(fs::exists(path_));
+  std::int64_t of = 0;
+  const BatchResult resumed = SolveWithForces(path_, [&](std::int64_t done, std::int64_t total) {
+    if (first < 0) first = done;
+    of = total;
+  });
+  ExpectSame(resumed, whole);
+  EXPECT_EQ(first, of / 5 * 3);
+  EXPECT_FALSE(fs::exists(path_));
+}
+
+TEST_F(WindowStoreTest, WindowsOfAnotherMethodOrOfOtherForcesAreNotTaken) {
+  const BatchResult whole = SolveWithForces({}, {});
+  EXPECT_THROW(Solve(path_, KilledAt(0.5)), Kill);
+  ASSERT_TRUE(fs::exists(path_));
+  ExpectSame(SolveWithForces(path_, {}), whole);
+  dynamics_.noise_sd *= 2;
+  EXPECT_THROW(SolveWithForces(path_, KilledAt(0.5)), Kill);
+  dynamics_.noise_sd /= 2;
+  std::int64_t first = -1;
+  ExpectSame(SolveWithForces(path_,
+                             [&](std::int64_t done, std::int64_t) {
+                               if (first < 0) first = done;
+                             }),
+             whole);
+  EXPECT_EQ(first, 0);
+}
+
 TEST_F(WindowStoreTest, AnotherProblemStartsAnew) {
-  const std::uint64_t print = FingerprintOf(options_, knowledge_, segments_, 30);
+  constexpr std::uint64_t print = 5, changed = 6;
   SolvedWindow solved;
   solved.result.paths = {SolvedPath(7)};
   WindowStore(path_, print).Keep(3, solved);
   EXPECT_TRUE(WindowStore(path_, print).Find(3).has_value());
   EXPECT_EQ(WindowStore(path_, print).Find(3)->result.paths[0].size(), 7u);
   EXPECT_FALSE(WindowStore(path_, print).Find(2).has_value());
-  Knowledge other = knowledge_;
-  other.wingspan->sd = 0.04;
-  const std::uint64_t changed = FingerprintOf(options_, other, segments_, 30);
-  EXPECT_NE(changed, print);
   EXPECT_FALSE(WindowStore(path_, changed).Find(3).has_value());
   EXPECT_FALSE(WindowStore(path_, print).Find(3).has_value());  // it is gone
-  segments_.segments[1].sightings[5].ray.x += 1e-9;
-  EXPECT_NE(FingerprintOf(options_, knowledge_, segments_, 30), print);
 }
 
 TEST_F(WindowStoreTest, AFolderThatCannotBeMadeIsAnError) {
