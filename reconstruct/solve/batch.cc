@@ -66,13 +66,13 @@ void Merge(const BatchReport& window, double share, BatchReport* report) {
   report->iterations += window.iterations;
   report->converged = report->converged && window.converged;
   report->scale_sd += share * window.scale_sd;
-  for (const auto& [name, value] : window.spreads) {
+  for (const auto& spread : window.spreads) {
     const auto same = std::find_if(report->spreads.begin(), report->spreads.end(),
-                                   [&](const auto& spread) { return spread.first == name; });
+                                   [&](const auto& s) { return s.first == spread.first; });
     if (same == report->spreads.end()) {
-      report->spreads.push_back({name, share * value});
+      report->spreads.push_back({spread.first, share * spread.second});
     } else {
-      same->second += share * value;
+      same->second += share * spread.second;
     }
   }
   for (const TermStatistics& term : window.terms) {
