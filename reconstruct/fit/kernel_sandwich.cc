@@ -76,8 +76,10 @@ MatrixXd KernelSandwich(const KernelDesign& design, const std::vector<ObservedFl
   MatrixXd scores = MatrixXd::Zero(v.rows(), n);
   ParallelFor(threads, 0, n, 1, [&](std::int64_t f, std::int64_t) {
     const auto flock = static_cast<std::size_t>(f);
-    for (const KernelRun& run : std::ranges::equal_range(runs, flock, {}, &KernelRun::flock)) {
-      scores.col(f) += ScoreOf(design, flocks[flock], run, modes.at(run.frames), evidence);
+    const auto last = std::ranges::upper_bound(runs, flock, {}, &KernelRun::flock);
+    for (auto run = std::ranges::lower_bound(runs, flock, {}, &KernelRun::flock); run != last;
+         ++run) {
+      scores.col(f) += ScoreOf(design, flocks[flock], *run, modes.at(run->frames), evidence);
     }
   });
   const VectorXd mean = scores.rowwise().mean();
