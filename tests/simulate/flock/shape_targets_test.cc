@@ -18,10 +18,10 @@ namespace {
 
 constexpr int kCount = 200;
 
-std::vector<Vec3d> Start(const Vec3d& center) {
+std::vector<Vec3d> Start(const Vec3d& center, int count = kCount) {
   std::vector<Vec3d> points;
   Rng rng(3);
-  for (int k = 0; k < kCount; ++k) {
+  for (int k = 0; k < count; ++k) {
     points.push_back(center + Vec3d{rng.Normal(), rng.Normal(), rng.Normal()});
   }
   return points;
@@ -104,10 +104,10 @@ TEST(ShapeTargets, OnAPathTheyMoveAtItsSpeed) {
 
 TEST(ShapeTargets, SameAtAnyNumberOfThreads) {
   const ShapeInTime shape{"ball", {0}, {BallMesh({}, 1, 3)}, 0, ""};
-  ShapeTargets one(shape, nullptr, 10, Start({}), 0, 1, 1),
-      two(shape, nullptr, 10, Start({}), 0, 1, 2);
-  ThreadPool pool(2);
-  EXPECT_EQ(one.At(0, &pool), two.At(0, &pool));
+  const std::vector<Vec3d> start = Start({}, 2500);  // more than one thread takes at once
+  ShapeTargets one(shape, nullptr, 10, start, 0, 1, 1), two(shape, nullptr, 10, start, 0, 1, 2);
+  ThreadPool single(1), pair(2);
+  EXPECT_EQ(one.At(0, &single), two.At(0, &pair));
 }
 
 }  // namespace
