@@ -33,6 +33,7 @@ class NearPatches {
 
   // By patch; animals are counted through all crowds.
   const std::vector<std::vector<ClosePair<T>>>& pairs() const { return pairs_; }
+  // Who is meant in a pair, as NearGrid tells it of the places of its sort.
   static std::uint32_t Animal(std::uint32_t animal) { return animal; }
 
  private:
