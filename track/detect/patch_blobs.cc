@@ -8,12 +8,15 @@
 #include <cstdint>
 #include <span>
 
+#include "track/detect/outline.h"
+
 namespace flocklift {
 namespace {
 
 constexpr float kLeastContrast = 0.01f;  // [grey levels]: a blob's pixels all count
 
-// Sums over the pixels of one blob, which stand at the end of `found->pixels` from `first` on.
+// Sums over the pixels of one blob, which stand at the end of `found.pixels` from `first` on. Its
+// box is of whole pixels.
 Blob Measure(const BlobFrame& found, std::size_t first) {
   const auto pixels = std::span(found.pixels).subspan(first);
   const float x0 = pixels[0].x, y0 = pixels[0].y;  // near, so that no digits are lost
@@ -46,6 +49,20 @@ Blob Measure(const BlobFrame& found, std::size_t first) {
 }
 
 }  // namespace
+
+Box PatchCutter::BoxOfOutline(std::span<const BlobPixel> pixels, const Box& whole) {
+  columns_.assign(static_cast<std::size_t>(whole.width), 0);
+  rows_.assign(static_cast<std::size_t>(whole.height), 0);
+  const auto left = static_cast<float>(whole.left + 0.5), top = static_cast<float>(whole.top + 0.5);
+  for (const BlobPixel& p : pixels) {
+    float& column = columns_[static_cast<std::size_t>(p.x - left)];
+    float& row = rows_[static_cast<std::size_t>(p.y - top)];
+    column = std::max(column, p.contrast);
+    row = std::max(row, p.contrast);
+  }
+  const internal::Outline across = internal::OutlineOf(columns_), down = internal::OutlineOf(rows_);
+  return {left + across.first, top + down.first, across.length(), down.length()};
+}
 
 void PatchCutter::Append(const Component& patch, const ContrastView& view, const BlobLimits& limits,
                          BlobFrame* found) {
@@ -90,7 +107,7 @@ void PatchCutter::Append(const Component& patch, const ContrastView& view, const
     blob.peak = part_peak;
     blob.snr = part_peak / limits.noise;
     blob.cut = parts > 1;
-    const Box& box = blob.box;
+    const Box box = blob.box;
     blob.edges = {
         box.left<0, box.top<0, box.left + box.width> view.image.width - 1, box.top + box.height>
             view.image.height -
@@ -100,6 +117,7 @@ void PatchCutter::Append(const Component& patch, const ContrastView& view, const
       found->pixels.resize(first);
       continue;
     }
+    blob.box = BoxOfOutline(std::span(found->pixels).subspan(first), box);
     found->blobs.push_back(blob);
   }
 }

@@ -3,11 +3,13 @@
 //
 // The blobs of one patch of candidates: cut where there is a deep saddle (watershed.h), and
 // measured from the contrast c of the picture as it is, c = |B - I|,
-//   mass = sum c,   centre = sum c x / mass,   moments = sum c (x - centre)(x - centre)' / mass.
+//   mass = sum c,   centre = sum c x / mass,   moments = sum c (x - centre)(x - centre)' / mass,
+// and its box from the outline (outline.h).
 
 #ifndef FLOCKLIFT_TRACK_DETECT_PATCH_BLOBS_H_
 #define FLOCKLIFT_TRACK_DETECT_PATCH_BLOBS_H_
 
+#include <span>
 #include <vector>
 
 #include "track/detect/background.h"
@@ -30,7 +32,7 @@ struct BlobLimits {
   double noise = 1;          // sd about the patch [grey levels]
   double least_peak = 0;     // [grey levels]
   int min_area = 1;          // [px]
-  double longest_side = 50;  // of the box [px]
+  double longest_side = 50;  // of the box of whole pixels [px]
 };
 
 class PatchCutter {
@@ -40,7 +42,9 @@ class PatchCutter {
               BlobFrame* found);
 
  private:
-  std::vector<float> contrast_, raw_;  // kept, so that no patch allocates them anew
+  Box BoxOfOutline(std::span<const BlobPixel> pixels, const Box& whole);
+
+  std::vector<float> contrast_, raw_, columns_, rows_;  // kept: no patch allocates them anew
   Watershed watershed_;
 };
 

@@ -49,10 +49,11 @@ TEST(PatchBlobsTest, SumsByHand) {
   EXPECT_NEAR(blob.moments.yy, 0.1875 + 1.0 / 12, 1e-9);
   EXPECT_NEAR(blob.moments.xy, 0.0625, 1e-9);
   EXPECT_EQ(blob.peak, 100);
-  EXPECT_EQ(blob.box.left, 19.5);
-  EXPECT_EQ(blob.box.top, 9.5);
-  EXPECT_EQ(blob.box.width, 2);
-  EXPECT_EQ(blob.box.height, 2);
+  // Ends at a contrast of 30: 0.6 of a pixel before 50, 0.3 before 100.
+  EXPECT_NEAR(blob.box.left, 19.6, 1e-6);
+  EXPECT_NEAR(blob.box.top, 9.3, 1e-6);
+  EXPECT_NEAR(blob.box.width, 2.1, 1e-6);
+  EXPECT_NEAR(blob.box.height, 2.1, 1e-6);
   EXPECT_FALSE(blob.cut);
   EXPECT_FALSE(blob.edges.any());
   EXPECT_EQ(blob.pixel_count, 3u);
