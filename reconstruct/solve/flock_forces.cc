@@ -181,7 +181,7 @@ PairForce::PairForce(const FlockForces& forces)
 
 Vec3d PairForce::operator()(std::span<const Offset> offsets, ByOffset* by_offsets,
                             PairUnknownsMatrix* by_unknowns) {
-  if (by_offsets == nullptr) {
+  if (by_unknowns == nullptr) {
     BoidsPairs<double>::Sums sums;
     for (const Offset& o : offsets) sums += SharesOf(o);
     return ForceOf(sums);

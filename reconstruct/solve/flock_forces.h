@@ -96,8 +96,8 @@ class WeightWindow {
   double inner_, outer_;  // squared distances up to which it is 1, from which on 0
 };
 
-// The force of neighbours; where they are wanted, both, its derivatives by each one's (dx, dv), and
-// by the first kPairUnknowns unknowns.
+// The force of neighbours; where `by_unknowns` is there, its derivatives too: by the first
+// kPairUnknowns unknowns, and by each one's (dx, dv) at `by_offsets` (may be null without any).
 using PairUnknownsMatrix = Eigen::Matrix<double, 3, kPairUnknowns>;
 class PairForce {
  public:

@@ -49,6 +49,15 @@ Eigen::Vector3d Slope(double* place, const Force& force) {
   return {slope.x, slope.y, slope.z};
 }
 
+// Nobody near: no derivatives either, whatever stood in their place. (Where nobody was ever near,
+// there is no memory for neighbours' own.)
+TEST(FlockForces, NobodyIsNoForce) {
+  PairUnknownsMatrix by_unknowns = PairUnknownsMatrix::Constant(99);
+  const Vec3d force = PairForce(SomeForces())({}, nullptr, &by_unknowns);
+  EXPECT_EQ(Norm(force), 0);
+  EXPECT_EQ(by_unknowns.norm(), 0);
+}
+
 // Two neighbours well inside all radii: separation by hand, and so on.
 TEST(FlockForces, ByHandFarFromEveryEdge) {
   FlockForces f = FlockForces::Usual({}, 10, 1);
