@@ -12,6 +12,7 @@
 
 #include "reconstruct/solve/coupled_flock.h"
 #include "reconstruct/solve/fingerprint.h"
+#include "reconstruct/solve/force_posterior.h"
 #include "reconstruct/solve/force_search.h"
 #include "reconstruct/solve/hidden_sightings.h"
 #include "reconstruct/solve/window_solver.h"
@@ -25,8 +26,6 @@ using namespace internal;  // NOLINT: the method's own parts
 // Probability from which on forces count: odds of the root of 10, from which on evidence is
 // "substantial" (Jeffreys, Theory of Probability, 1961).
 constexpr double kSubstantial = 0.76;
-constexpr double kUnsure = 1.4;   // errors over what the linearised posterior says, as measured
-constexpr double kOpen = 0.7;     // of what two starts are apart, as measured
 constexpr int kIterations = 350;  // of solvers in a window, about
 
 // Where the common scale drifts while forces are found, it is not because forces know it: it stays
@@ -77,28 +76,25 @@ struct Both {
     squares = std::min(squares, of_batch + of_forces);
     return squares > 0 ? std::clamp(0.5 + 0.5 * (of_batch - of_forces) / squares, 0.0, 1.0) : 1;
   }
-  // The share of forces in a mixture's variances, and what the two are apart. With forces neither
-  // of two starts is sure where these end `apart`.
-  DepthPosterior Mixed(double weight, const std::vector<double>& apart) const {
+  // The share of forces in a mixture's variances, what is `open` for an animal with them, and what
+  // the two are apart.
+  DepthPosterior Mixed(double weight, const std::vector<double>& open) const {
     DepthPosterior posterior{weight, forces};
     for (std::size_t i = 0; i < off.size(); ++i) {
       for (std::size_t k = 0; k < off[i].size(); ++k) {
         double& value = posterior.variances[i][k];
-        const double open = kOpen * apart[i];
-        value = weight * (value + open * open + (1 - weight) * off[i][k] * off[i][k]);
+        value = weight * (value + open[i] + (1 - weight) * off[i][k] * off[i][k]);
       }
     }
     return posterior;
   }
 };
 
-Both SideBySide(const WindowToRefine& window, const CoupledFlock::DepthSds& sds,
+Both SideBySide(const WindowToRefine& window, const ForcePosterior& posterior,
                 const std::vector<Bird>& flock) {
-  Both both{window.variances(), sds.at, sds.at};
+  Both both{window.variances(), posterior.linear, posterior.linear};
   for (std::size_t i = 0; i < flock.size(); ++i) {
     for (std::size_t k = 0; k < flock[i].places.size(); ++k) {
-      const double sd = kUnsure * sds.at[i][k];
-      both.forces[i][k] = sd * sd;
       const Bird::Place& place = flock[i].places[k];
       double off = 0;
       for (std::size_t a = 0; a < 4; ++a) {
@@ -218,15 +214,15 @@ BatchResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& ba
     report.dynamics_error = MeanOf(test.errors);
     const double better = ProbabilityOfBetter(test.errors, test.batch_errors, test.odds);
     if (!(better > kSubstantial)) return;
-    const CoupledFlock::DepthSds sds = Polish(window.model, &flock);
+    const ForcePosterior posterior = PosteriorOf(window.model, &flock);
     KeepScale(*window.birds, window.model, &flock);
-    if (sds.at.empty()) return;
-    const Both both = SideBySide(window, sds, flock.birds);
+    if (posterior.linear.empty()) return;
+    const Both both = SideBySide(window, posterior, flock.birds);
     const double weight = better * both.LeastVarianceShare();
     if (!(weight > 0)) return;
     report.kept = 1;
     report.weight = weight;
-    *window.posterior = both.Mixed(weight, flock.apart);
+    *window.posterior = both.Mixed(weight, posterior.open);
     for (std::size_t i = 0; i < flock.birds.size(); ++i) {
       Approach(weight, flock.birds[i].path, &(*window.birds)[i].path);
       Approach(weight, flock.birds[i].own, &(*window.birds)[i].own);

@@ -158,8 +158,4 @@ FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine&
 
 void Settle(const BatchModel& model, FollowedFlock* flock) { flock->Settle(model, kIterations); }
 
-CoupledFlock::DepthSds Polish(const BatchModel& model, FollowedFlock* flock) {
-  return flock->Settle(model, kIterations).Depths();
-}
-
 }  // namespace flocklift::internal

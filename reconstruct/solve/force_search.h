@@ -23,8 +23,6 @@ FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine&
 
 // Goes on with what is known of forces and noise.
 void Settle(const BatchModel& model, FollowedFlock* flock);
-// The same. Returns how sure depths are then.
-CoupledFlock::DepthSds Polish(const BatchModel& model, FollowedFlock* flock);
 
 }  // namespace flocklift::internal
 

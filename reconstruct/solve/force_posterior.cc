@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 the flocklift authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "reconstruct/solve/force_posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace flocklift::internal {
+namespace {
+
+constexpr double kUnsure = 1.4;  // errors over what the linearised posterior says, as measured
+constexpr double kOpen = 0.7;    // of what two starts are apart, as measured
+constexpr int kIterations = 6;
+
+std::vector<std::vector<double>> Linear(CoupledFlock* coupled) {
+  std::vector<std::vector<double>> variances = coupled->Depths().at;
+  for (std::vector<double>& animal : variances) {
+    for (double& value : animal) value *= kUnsure * kUnsure * value;
+  }
+  return variances;
+}
+
+}  // namespace
+
+double ForcePosterior::Rms() const {
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < linear.size(); ++i) {
+    for (const double variance : linear[i]) {
+      sum += variance + open[i];
+      ++count;
+    }
+  }
+  return std::sqrt(sum / std::max(count, 1.0));
+}
+
+ForcePosterior PosteriorOf(const BatchModel& model, FollowedFlock* flock) {
+  CoupledFlock coupled = flock->Settle(model, kIterations);
+  ForcePosterior posterior{Linear(&coupled), {}};
+  for (const double apart : flock->apart) posterior.open.push_back(kOpen * kOpen * apart * apart);
+  const double width = std::sqrt(8) * posterior.Rms() * std::exp(coupled.scale().log_depth);
+  double& log_taper = coupled.forces.unknowns[kLogTaper];
+  if (width <= std::exp(log_taper)) return posterior;
+  log_taper = std::log(width);
+  coupled.Relinearize();
+  posterior.linear = Linear(&coupled);
+  return posterior;
+}
+
+}  // namespace flocklift::internal
