@@ -51,7 +51,7 @@ TEST(Registry, ChoicesAreWords) {
   EXPECT_EQ(paint.coats, 3);
   EXPECT_EQ(paint.colour.name(), "blue");
   EXPECT_EQ(std::get<Paint>(Paints().Resolve(Spec({}, {}))).colour.name(), "green");
-  const ModelInfo& info = Paints().infos()[0];
+  const ModelInfo info = Paints().infos()[0];
   EXPECT_EQ(info.parameters[1].choices, (std::vector<std::string>{"red", "green", "blue"}));
   EXPECT_EQ(info.parameters[1].value, 1);
 }
