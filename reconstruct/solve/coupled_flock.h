@@ -89,7 +89,8 @@ class CoupledFlock {
     std::vector<std::vector<double>> at;  // by animal
     double mean = 0;
   };
-  DepthSds Depths();
+  // By so many draws of kSamples each: the root of (2 / samples) is the error of one variance.
+  DepthSds Depths(int draws = 4);
 
  private:
   friend class OneAnimal;

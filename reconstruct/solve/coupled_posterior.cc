@@ -95,8 +95,7 @@ double CoupledFlock::EstimateNoise() {
   return std::sqrt(squares / (count * seen));
 }
 
-CoupledFlock::DepthSds CoupledFlock::Depths() {
-  constexpr int kDraws = 4;  // of kSamples each
+CoupledFlock::DepthSds CoupledFlock::Depths(int draws) {
   Linearize();
   if (!Factorise(0)) return {};
   double rows = 0;
@@ -105,7 +104,7 @@ CoupledFlock::DepthSds CoupledFlock::Depths() {
   sds.at.resize(birds_.size());
   double of_mean = 0;
   using Row = Eigen::Matrix<double, 1, kSamples>;
-  for (int draw = 0; draw < kDraws; ++draw) {
+  for (int draw = 0; draw < draws; ++draw) {
     const Columns<kSamples> x = Draw(kDepthSeed + static_cast<std::uint64_t>(draw));
     const auto depth = [&](std::size_t i, const Bird::Place& place) {
       Row sum = Row::Zero();
@@ -121,10 +120,10 @@ CoupledFlock::DepthSds CoupledFlock::Depths() {
     }
     for (std::size_t i = 0; i < birds_.size(); ++i) {
       for (std::size_t k = 0; k < sds.at[i].size(); ++k) {
-        sds.at[i][k] += (depth(i, birds_[i].places[k]) - mean).squaredNorm() / (kDraws * kSamples);
+        sds.at[i][k] += (depth(i, birds_[i].places[k]) - mean).squaredNorm() / (draws * kSamples);
       }
     }
-    of_mean += mean.squaredNorm() / (kDraws * kSamples);
+    of_mean += mean.squaredNorm() / (draws * kSamples);
   }
   for (std::vector<double>& animal : sds.at) {
     for (double& sd : animal) sd = std::sqrt(sd);

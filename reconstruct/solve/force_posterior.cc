@@ -14,8 +14,8 @@ constexpr double kUnsure = 1.4;  // errors over what the linearised posterior sa
 constexpr double kOpen = 0.7;    // of what two starts are apart, as measured
 constexpr int kIterations = 6;
 
-std::vector<std::vector<double>> Linear(CoupledFlock* coupled) {
-  std::vector<std::vector<double>> variances = coupled->Depths().at;
+std::vector<std::vector<double>> Linear(int draws, CoupledFlock* coupled) {
+  std::vector<std::vector<double>> variances = coupled->Depths(draws).at;
   for (std::vector<double>& animal : variances) {
     for (double& value : animal) value *= kUnsure * kUnsure * value;
   }
@@ -37,14 +37,16 @@ double ForcePosterior::Rms() const {
 
 ForcePosterior PosteriorOf(const BatchModel& model, FollowedFlock* flock) {
   CoupledFlock coupled = flock->Settle(model, kIterations);
-  ForcePosterior posterior{Linear(&coupled), {}};
+  constexpr int kRough = 1, kFine = 4;  // draws: of the mean over all animals, of each one
+  ForcePosterior posterior{Linear(kRough, &coupled), {}};
   for (const double apart : flock->apart) posterior.open.push_back(kOpen * kOpen * apart * apart);
   const double width = std::sqrt(8) * posterior.Rms() * std::exp(coupled.scale().log_depth);
   double& log_taper = coupled.forces.unknowns[kLogTaper];
-  if (width <= std::exp(log_taper)) return posterior;
-  log_taper = std::log(width);
-  coupled.Relinearize();
-  posterior.linear = Linear(&coupled);
+  if (width > std::exp(log_taper)) {
+    log_taper = std::log(width);
+    coupled.Relinearize();
+  }
+  posterior.linear = Linear(kFine, &coupled);
   return posterior;
 }
 
