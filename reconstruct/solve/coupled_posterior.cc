@@ -109,7 +109,8 @@ CoupledFlock::DepthSds CoupledFlock::Depths(int draws) {
     const auto depth = [&](std::size_t i, const Bird::Place& place) {
       Row sum = Row::Zero();
       for (int a = 0; a < 4; ++a) {
-        sum += place.weights[Index(a)] * x.row(place_[i] + 3 * (place.interval + a) + 2);
+        sum +=
+            place.weights[Index(a)] * x.row(place_[i] + 3 * Eigen::Index{place.interval + a} + 2);
       }
       return sum;
     };
