@@ -30,17 +30,25 @@ inline Segments Seen(const FlockSpec& spec) {
   return MakeSegments({}, Observe(spec, {}, CirclingFlock(spec), camera), camera, kFps);
 }
 
-// Calls with the coupled flock of a batch solution.
+// Calls with a batch solution, as a refiner would be.
 template <typename Check>
-void WithFlock(const FlockSpec& spec, const BatchOptions& options, const Check& check) {
+void WithWindow(const FlockSpec& spec, const BatchOptions& options, const Check& check) {
   int asked = 0;
   internal::SolveWindow(options, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
                         [&](const internal::WindowToRefine& window) {
                           ++asked;
-                          internal::CoupledFlock flock(window.model, window.birds, window.shared);
-                          check(window, flock);
+                          check(window);
                         });
   EXPECT_EQ(asked, 1);
+}
+
+// Calls with the coupled flock of one.
+template <typename Check>
+void WithFlock(const FlockSpec& spec, const BatchOptions& options, const Check& check) {
+  WithWindow(spec, options, [&](const internal::WindowToRefine& window) {
+    internal::CoupledFlock flock(window.model, window.birds, window.shared);
+    check(window, flock);
+  });
 }
 
 }  // namespace flocklift

@@ -91,56 +91,47 @@ TEST(OneAnimal, ComesToRestWhereTheCostOfAllHasNoSlope) {
 // Animals that were put far away come to rest on their way back, some of them where settling
 // leaves them. Over many, for where one of them ends hangs on the last digits.
 TEST(DepthMoves, LeadOutOfWhereSettlingEnds) {
-  int asked = 0;
   double gain = 0;
   const FlockSpec spec{.count = 6, .frames = 90};
-  internal::SolveWindow({}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {},
-                        [&](const WindowToRefine& window) {
-                          ++asked;
-                          const internal::FollowedFlock found = internal::FollowForces({}, window);
-                          for (std::size_t i = 0; i < found.birds.size(); ++i) {
-                            for (const double off : {-0.5, 0.3, 0.4, 0.5}) {
-                              internal::FollowedFlock flock = found;
-                              for (std::size_t k = 2; k < flock.birds[i].path.size(); k += 3) {
-                                flock.birds[i].path[k] += off;
-                              }
-                              for (int again = 0; again < 4; ++again)
-                                flock.Settle(window.model, 60);
-                              const double stuck = flock.improbable;
-                              internal::MoveDepths(window.model, &flock);
-                              EXPECT_LE(flock.improbable, stuck);
-                              gain += stuck - flock.improbable;
-                            }
-                          }
-                        });
-  EXPECT_EQ(asked, 1);
+  WithWindow(spec, {}, [&](const WindowToRefine& window) {
+    const internal::FollowedFlock found = internal::FollowForces({}, window);
+    for (std::size_t i = 0; i < found.birds.size(); ++i) {
+      for (const double off : {-0.5, 0.3, 0.4, 0.5}) {
+        internal::FollowedFlock flock = found;
+        for (std::size_t k = 2; k < flock.birds[i].path.size(); k += 3) {
+          flock.birds[i].path[k] += off;
+        }
+        for (int again = 0; again < 4; ++again) flock.Settle(window.model, 60);
+        const double stuck = flock.improbable;
+        internal::MoveDepths(window.model, &flock);
+        EXPECT_LE(flock.improbable, stuck);
+        gain += stuck - flock.improbable;
+      }
+    }
+  });
   EXPECT_GT(gain, 15);
 }
 
 // A flock that has grown by 2 % has accelerations as much larger. They count for what they were
 // beside the flock that it was, and would count for more by themselves.
 TEST(FollowedFlock, KeepsTheScaleOfItsProbability) {
-  int asked = 0;
   const FlockSpec spec{.count = 6, .frames = 90};
-  internal::SolveWindow(
-      {}, Known(spec), Seen(spec), std::nullopt, 1, kFps, 1, {}, [&](const WindowToRefine& window) {
-        ++asked;
-        internal::FollowedFlock found = internal::FollowForces({}, window);
-        found.Settle(window.model, 60);
-        internal::FollowedFlock grown = found;
-        for (internal::Bird& bird : grown.birds) {
-          for (std::size_t k = 2; k < bird.path.size(); k += 3) {
-            bird.path[k] += 0.02;
-          }
-        }
-        const auto costs_more = [&] {
-          return grown.Coupled(window.model).Cost() - found.Coupled(window.model).Cost();
-        };
-        const double beside = costs_more();
-        grown.scale.reset();
-        EXPECT_GT(costs_more(), beside + 1);
-      });
-  EXPECT_EQ(asked, 1);
+  WithWindow(spec, {}, [&](const WindowToRefine& window) {
+    internal::FollowedFlock found = internal::FollowForces({}, window);
+    found.Settle(window.model, 60);
+    internal::FollowedFlock grown = found;
+    for (internal::Bird& bird : grown.birds) {
+      for (std::size_t k = 2; k < bird.path.size(); k += 3) {
+        bird.path[k] += 0.02;
+      }
+    }
+    const auto costs_more = [&] {
+      return grown.Coupled(window.model).Cost() - found.Coupled(window.model).Cost();
+    };
+    const double beside = costs_more();
+    grown.scale.reset();
+    EXPECT_GT(costs_more(), beside + 1);
+  });
 }
 
 }  // namespace
