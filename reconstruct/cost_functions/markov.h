@@ -22,6 +22,16 @@ struct MarkovProcess {
   double StepSd(double rho) const { return sd * std::sqrt(1 - rho * rho); }
 };
 
+// The way from errors at steps of dt to those residuals: the error minus rho times the one before,
+// times the inverse of its sd.
+struct MarkovWhitening {
+  double rho, first, next;
+
+  MarkovWhitening(const MarkovProcess& process, double dt)
+      : rho(process.Correlation(dt)), first(1 / process.sd), next(1 / process.StepSd(rho)) {}
+  double At(int knot) const { return knot == 0 ? first : next; }
+};
+
 }  // namespace flocklift
 
 #endif  // FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_MARKOV_H_

@@ -5,7 +5,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "simulate/core/check.h"
 
@@ -32,6 +34,9 @@ ArrowSystem::ArrowSystem(int n, int own, int shared)
 }
 
 void ArrowSystem::SetZero() {
+  pieces_.clear();
+  met_.assign(static_cast<std::size_t>(k_), n_);
+  left_.assign(static_cast<std::size_t>(k_), 0);
   std::fill(band_.begin(), band_.end(), 0.0);
   border_.setZero();
   corner_.setZero();
@@ -46,12 +51,21 @@ void ArrowSystem::SetIdentity() {
 
 void ArrowSystem::Add(const ResidualRow& row, double weight) {
   const int count = std::min(kBand, n_ - row.first);
+  std::array<int, kBand> present;
+  int size = 0;
   for (int a = 0; a < count; ++a) {
+    if (row.path[a] != 0) present[size++] = a;
+  }
+  const bool sparse = 2 * size <= kBand;  // as of a sighting, with four unknowns of the twelve
+  for (int n = 0; n < size; ++n) {
+    const int a = present[n], i = row.first + a;
     const double scaled = weight * row.path[a];
-    if (scaled == 0) continue;
-    const int i = row.first + a;
     double* out = &band_[At(i, row.first)];
-    for (int b = 0; b <= a; ++b) out[b] += scaled * row.path[b];
+    if (sparse) {
+      for (int m = 0; m <= n; ++m) out[present[m]] += scaled * row.path[present[m]];
+    } else {
+      for (int b = 0; b <= a; ++b) out[b] += scaled * row.path[b];
+    }
     gradient_[i] += scaled * row.residual;
     for (int c = 0; c < row.border_count; ++c) {
       border_(row.border[c].first, i) += scaled * row.border[c].second;
@@ -59,6 +73,7 @@ void ArrowSystem::Add(const ResidualRow& row, double weight) {
   }
   for (int c = 0; c < row.border_count; ++c) {
     const auto [i, derivative] = row.border[c];
+    Meet(i, row.first);
     gradient_[n_ + i] += weight * derivative * row.residual;
     for (int d = 0; d < row.border_count; ++d) {
       corner_(i, row.border[d].first) += weight * derivative * row.border[d].second;
@@ -77,61 +92,152 @@ void ArrowSystem::Add(int first, const Square& square, const Pull& pull) {
 
 void ArrowSystem::Add(const Rows& rows, const Eigen::Vector3d& weight) {
   const int count = std::min(kBand, n_ - rows.first);
-  const int last = k_ - static_cast<int>(rows.by_last.cols());
   const Eigen::Matrix<double, kBand, 3> weighted = rows.path.transpose() * weight.asDiagonal();
-  Add(rows.first, weighted * rows.path, weighted * rows.residual);
+  Add(rows.first, weighted.lazyProduct(rows.path), weighted * rows.residual);
   border_.row(rows.own).segment(rows.first, count) += (weighted * rows.by_own).head(count);
-  border_.bottomRows(rows.by_last.cols()).middleCols(rows.first, count).noalias() +=
-      rows.by_last.transpose() * weighted.topRows(count).transpose();
+  Meet(rows.own, rows.first);
   const Eigen::Vector3d own = weight.cwiseProduct(rows.by_own);
-  const Eigen::MatrixXd by_last = weight.asDiagonal() * rows.by_last;
-  const Eigen::VectorXd across = by_last.transpose() * rows.by_own;
   corner_(rows.own, rows.own) += own.dot(rows.by_own);
-  corner_.row(rows.own).tail(across.size()) += across.transpose();
-  corner_.col(rows.own).tail(across.size()) += across;
-  corner_.bottomRightCorner(across.size(), across.size()).noalias() +=
-      by_last.transpose() * rows.by_last;
   gradient_[n_ + rows.own] += own.dot(rows.residual);
-  gradient_.tail(k_ - last).noalias() += by_last.transpose() * rows.residual;
+  for (const Rows::Run& run : rows.by_shared) {
+    const int first = own_ + run.first, size = static_cast<int>(run.by.cols());
+    const auto by = run.by.transpose();
+    border_.block(first, rows.first, size, count) +=
+        by.lazyProduct(weighted.topRows(count).transpose());
+    for (int c = first; c < first + size; ++c) Meet(c, rows.first);
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, Rows::Run::kMost, 1> across =
+        by.lazyProduct(own);
+    corner_.row(rows.own).segment(first, size) += across.transpose();
+    corner_.col(rows.own).segment(first, size) += across;
+    gradient_.segment(n_ + first, size) += by.lazyProduct(weight.cwiseProduct(rows.residual));
+    for (const Rows::Run& other : rows.by_shared) {
+      corner_.block(first, own_ + other.first, size, other.by.cols()) +=
+          by.lazyProduct(weight.asDiagonal() * other.by);
+    }
+  }
+}
+
+void ArrowSystem::Meet(int border, int first) {
+  met_[border] = std::min(met_[border], first);
+  left_[border] = std::max(left_[border], std::min(first + kBand, n_));
+}
+
+void ArrowSystem::GatherBorder() {
+  pieces_.clear();
+  for (int first = 0; first < n_; first += kColumns) {
+    Piece& piece = pieces_.emplace_back();
+    piece.first = first;
+    const int columns = std::min(kColumns, n_ - first);
+    for (int c = 0; c < k_; ++c) {
+      if (met_[c] < first + columns && left_[c] > first) piece.border.push_back(c);
+    }
+    piece.values = border_(piece.border, Eigen::seqN(first, columns));
+  }
 }
 
 double ArrowSystem::Diagonal(int i) const { return band_[At(i, i)]; }
 
+template <typename Visit>
+void ArrowSystem::ForEachBlock(const Visit& visit) const {
+  int met = 0;
+  for (int first = 0; first < n_; first += kColumns) {
+    const int columns = std::min(kColumns, n_ - first);
+    while (met < k_ && met_[order_[met]] < first + columns) ++met;
+    visit(first, columns, met);
+  }
+}
+
+void ArrowSystem::SortBorder() {
+  order_.resize(static_cast<std::size_t>(k_));
+  std::iota(order_.begin(), order_.end(), 0);
+  std::stable_sort(order_.begin(), order_.end(),
+                   [this](int a, int b) { return met_[a] < met_[b]; });
+}
+
+template <int Count>
+Columns<Count> ArrowSystem::ReducedTimes(const Eigen::Ref<const Columns<Count>>& x) const {
+  Columns<Count> sorted = Columns<Count>::Zero(k_, Count), border(k_, Count);
+  ForEachBlock([&](int first, int columns, int met) {
+    sorted.topRows(met).noalias() +=
+        reduced_border_.block(0, first, met, columns) * x.middleRows(first, columns);
+  });
+  for (int c = 0; c < k_; ++c) border.row(order_[c]) = sorted.row(c);
+  return border;
+}
+
+template <int Count>
+void ArrowSystem::SubtractReduced(const Columns<Count>& border,
+                                  Eigen::Ref<Columns<Count>> x) const {
+  Columns<Count> sorted(k_, Count);
+  for (int c = 0; c < k_; ++c) sorted.row(c) = border.row(order_[c]);
+  ForEachBlock([&](int first, int columns, int met) {
+    x.middleRows(first, columns).noalias() -=
+        reduced_border_.block(0, first, met, columns).transpose() * sorted.topRows(met);
+  });
+}
+
+// Column by column, each taken off the rows below it: sums of the same order as row by row, but
+// without a chain of additions.
+bool ArrowSystem::FactoriseBand(double damping) {
+  factor_ = band_;
+  for (int i = 0; i < n_; ++i) {
+    double& diagonal = factor_[At(i, i)];
+    diagonal += damping * (i % 3 == 2 ? ArrowSystem::kDepthMetric : diagonal);
+  }
+  std::array<double, kBand> column;
+  for (int i = 0; i < n_; ++i) {
+    const double diagonal = band_[At(i, i)];
+    double& pivot = factor_[At(i, i)];
+    if (!(pivot > 1e-12 * diagonal) || !std::isfinite(pivot)) return false;
+    pivot = std::sqrt(pivot);
+    const int below = std::min(kBand - 1, n_ - 1 - i);
+    for (int a = 1; a <= below; ++a) {
+      column[a] = factor_[At(i + a, i)] /= pivot;
+      double* row = &factor_[At(i + a, i)];
+      for (int b = 1; b <= a; ++b) row[b] -= column[a] * column[b];
+    }
+  }
+  return true;
+}
+
 bool ArrowSystem::Reduce(double damping, Eigen::MatrixXd* shared_matrix,
                          Eigen::VectorXd* shared_gradient) {
-  for (int i = 0; i < n_; ++i) {
-    const int low = std::max(0, i - kBand + 1);
-    double* row = &factor_[At(i, low)] - low;  // row[j] is entry (i, j)
-    for (int j = low; j <= i; ++j) {
-      double sum = band_[At(i, j)];
-      if (j == i) sum += damping * (i % 3 == 2 ? ArrowSystem::kDepthMetric : sum);
-      const double* other =
-          &factor_[At(j, std::max(0, j - kBand + 1))] - std::max(0, j - kBand + 1);
-      for (int m = std::max(low, j - kBand + 1); m < j; ++m) sum -= row[m] * other[m];
-      if (j < i) {
-        row[j] = sum / other[j];
-      } else {
-        if (!(sum > 1e-12 * band_[At(i, i)]) || !std::isfinite(sum)) return false;
-        row[i] = std::sqrt(sum);
-      }
-    }
-  }
-  reduced_border_ = border_;
+  if (!FactoriseBand(damping)) return false;
+  SortBorder();
+  reduced_border_.resize(k_, n_);
   reduced_gradient_ = gradient_.head(n_);
-  for (int i = 0; i < n_; ++i) {
-    for (int j = std::max(0, i - kBand + 1); j < i; ++j) {
-      const double l = factor_[At(i, j)];
-      reduced_border_.col(i) -= l * reduced_border_.col(j);
-      reduced_gradient_[i] -= l * reduced_gradient_[j];
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(k_, k_);
+  Eigen::VectorXd pulls = Eigen::VectorXd::Zero(k_);
+  int met_before = 0;
+  ForEachBlock([&](int first, int columns, int met) {
+    const int before = std::max(0, first - kBand + 1);  // columns of the last block, shorter
+    reduced_border_.block(met_before, before, met - met_before, first - before).setZero();
+    met_before = met;
+    for (int i = first; i < first + columns; ++i) {
+      auto column = reduced_border_.col(i).head(met);
+      for (int c = 0; c < met; ++c) column[c] = border_(order_[c], i);
+      for (int j = std::max(0, i - kBand + 1); j < i; ++j) {
+        const double l = factor_[At(i, j)];
+        column -= l * reduced_border_.col(j).head(met);
+        reduced_gradient_[i] -= l * reduced_gradient_[j];
+      }
+      const double inverse = 1 / factor_[At(i, i)];
+      column *= inverse;
+      reduced_gradient_[i] *= inverse;
     }
-    const double inverse = 1 / factor_[At(i, i)];
-    reduced_border_.col(i) *= inverse;
-    reduced_gradient_[i] *= inverse;
-  }
+    const auto block = reduced_border_.block(0, first, met, columns);
+    squares.topLeftCorner(met, met).selfadjointView<Eigen::Lower>().rankUpdate(block);
+    pulls.head(met).noalias() += block * reduced_gradient_.segment(first, columns);
+  });
   Eigen::MatrixXd schur = corner_;
   for (int a = 0; a < own_; ++a) schur(a, a) *= 1 + damping;
-  schur.noalias() -= reduced_border_ * reduced_border_.transpose();
-  const Eigen::VectorXd gradient = gradient_.tail(k_) - reduced_border_ * reduced_gradient_;
+  Eigen::VectorXd gradient = gradient_.tail(k_);
+  for (int a = 0; a < k_; ++a) {
+    gradient[order_[a]] -= pulls[a];
+    for (int b = 0; b < k_; ++b) {
+      schur(order_[a], order_[b]) -= squares(std::max(a, b), std::min(a, b));
+    }
+  }
 
   const int shared = k_ - own_;
   const Eigen::LLT<Eigen::MatrixXd> own(schur.topLeftCorner(own_, own_));
@@ -160,7 +266,8 @@ Eigen::VectorXd ArrowSystem::BackSubstitute(const Eigen::VectorXd& shared_step) 
   own_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(own);
   Eigen::VectorXd border(k_);
   border << own, shared_step;
-  step.head(n_) = -reduced_gradient_ - reduced_border_.transpose() * border;
+  step.head(n_) = -reduced_gradient_;
+  SubtractReduced<1>(border, step.head(n_));
   SolveBandInPlace(step.head(n_));
   step.tail(own_) = own;
   return step;
@@ -169,6 +276,7 @@ Eigen::VectorXd ArrowSystem::BackSubstitute(const Eigen::VectorXd& shared_step) 
 template <int Count>
 void ArrowSystem::Multiply(const Eigen::Ref<const Columns<Count>>& x, const Columns<Count>& shared,
                            Eigen::Ref<Columns<Count>> y, Columns<Count>* out) const {
+  FLOCKLIFT_DCHECK(!pieces_.empty());
   Columns<Count> border(k_, Count);
   border << x.bottomRows(own_), shared;
   for (int i = 0; i < n_; ++i) {
@@ -181,9 +289,13 @@ void ArrowSystem::Multiply(const Eigen::Ref<const Columns<Count>>& x, const Colu
     }
     y.row(i) += sum;
   }
-  y.topRows(n_).noalias() += border_.transpose() * border;
   Columns<Count> ends = corner_ * border;
-  ends.noalias() += border_ * x.topRows(n_);
+  for (const Piece& piece : pieces_) {
+    const Eigen::Index columns = piece.values.cols();
+    const Columns<Count> met = border(piece.border, Eigen::all);
+    y.middleRows(piece.first, columns).noalias() += piece.values.transpose() * met;
+    ends(piece.border, Eigen::all) += piece.values * x.middleRows(piece.first, columns);
+  }
   y.bottomRows(own_) += ends.topRows(own_);
   *out += ends.bottomRows(k_ - own_);
 }
@@ -197,7 +309,7 @@ void ArrowSystem::Eliminate(Eigen::Ref<Columns<Count>> x, Columns<Count>* shared
     for (int j = low; j < i; ++j) sum -= row[j] * x.row(j);
     x.row(i) = sum / row[i];
   }
-  const Columns<Count> ends = reduced_border_ * x.topRows(n_);
+  const Columns<Count> ends = ReducedTimes<Count>(x.topRows(n_));
   x.bottomRows(own_) -= ends.topRows(own_);
   own_factor_.triangularView<Eigen::Lower>().solveInPlace(x.bottomRows(own_));
   own_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x.bottomRows(own_));
@@ -214,7 +326,7 @@ void ArrowSystem::Substitute(const Columns<Count>& shared, Eigen::Ref<Columns<Co
   x.bottomRows(own_) -= border.topRows(own_);
   border.topRows(own_) = x.bottomRows(own_);
   border.bottomRows(k_ - own_) = shared;
-  x.topRows(n_).noalias() -= reduced_border_.transpose() * border;
+  SubtractReduced<Count>(border, x.topRows(n_));
   for (int i = n_ - 1; i >= 0; --i) {
     const int low = std::max(0, i - kBand + 1);
     const double* row = &factor_[At(i, low)] - low;
@@ -247,7 +359,13 @@ ArrowSystem::Posterior ArrowSystem::Covariance(const Eigen::MatrixXd& shared_cov
       posterior.border.topRightCorner(own_, shared).transpose();
   posterior.border.bottomRightCorner(shared, shared) = shared_covariance;
 
-  posterior.path_to_border = -reduced_border_.transpose();
+  posterior.path_to_border.setZero(n_, k_);
+  ForEachBlock([&](int first, int columns, int met) {
+    for (int c = 0; c < met; ++c) {
+      posterior.path_to_border.col(order_[c]).segment(first, columns) =
+          -reduced_border_.row(c).segment(first, columns).transpose();
+    }
+  });
   for (int c = 0; c < k_; ++c) SolveBandInPlace(posterior.path_to_border.col(c));
 
   // Z = A^-1 inside the band, from the last row up: Z L = L^-T.
@@ -293,7 +411,7 @@ std::pair<double, Eigen::VectorXd> ArrowSystem::Functional(const Eigen::VectorXd
     y[i] /= factor_[At(i, i)];
   }
   double variance = y.squaredNorm();
-  const Eigen::VectorXd border = -(reduced_border_ * y);
+  const Eigen::VectorXd border = -ReducedTimes<1>(y);
   Eigen::VectorXd own = border.head(own_);
   own_factor_.triangularView<Eigen::Lower>().solveInPlace(own);
   variance += own.squaredNorm();

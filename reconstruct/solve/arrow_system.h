@@ -65,14 +65,19 @@ class ArrowSystem {
   // Adds weight * (J^T J) and the gradient weight * J^T r. Entries of `path` past n are ignored.
   void Add(const ResidualRow& row, double weight = 1);
   // Adds three residuals at once, each with its weight: derivatives by the 12 from `first`, by one
-  // unknown of its own and by the flock's last ones.
+  // unknown of its own and by some of the flock's.
   struct Rows {
     int first = 0;
     Eigen::Vector3d residual;
     Eigen::Matrix<double, 3, kBand> path;
     int own = 0;
     Eigen::Vector3d by_own;
-    Eigen::Matrix<double, 3, Eigen::Dynamic> by_last;
+    struct Run {  // of neighbouring unknowns of the flock, from `first`
+      static constexpr int kMost = 16;
+      int first = 0;
+      Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMost> by{3, 0};
+    };
+    std::array<Run, 2> by_shared{};
   };
   void Add(const Rows& rows, const Eigen::Vector3d& weight);
   // Adds what many residuals of the same 12 unknowns come to, their J^T W J and J^T W r.
@@ -92,6 +97,8 @@ class ArrowSystem {
   // unknowns, and what the quadratic model of this path then falls by (own share).
   Eigen::VectorXd BackSubstitute(const Eigen::VectorXd& shared_step) const;
 
+  // After the last Add, before Multiply.
+  void GatherBorder();
   // Adds the matrix times x: x and y are the path's unknowns and its own scalars, `shared` and
   // `out` the flock's. (Instantiated for the counts of coupled_flock.h.)
   template <int Count>
@@ -120,15 +127,37 @@ class ArrowSystem {
   std::pair<double, Eigen::VectorXd> Functional(const Eigen::VectorXd& weights) const;
 
  private:
+  bool FactoriseBand(double damping);
+  // A border unknown that the path meets late has no share of what is eliminated before. Sorted by
+  // when they are met, those met so far come first: calls visit(i, columns, unknowns) for `columns`
+  // of the path from i on and the number of unknowns met by their end.
+  static constexpr int kColumns = 48;
+  template <typename Visit>
+  void ForEachBlock(const Visit& visit) const;
+  void Meet(int border, int first);  // the 12 unknowns of the path from `first` on
+  void SortBorder();
+  // L^-1 U, transposed, times the path's unknowns; and taken off x, times the border's.
+  template <int Count>
+  Columns<Count> ReducedTimes(const Eigen::Ref<const Columns<Count>>& x) const;
+  template <int Count>
+  void SubtractReduced(const Columns<Count>& border, Eigen::Ref<Columns<Count>> x) const;
   void SolveBandInPlace(Eigen::Ref<Eigen::VectorXd> x) const;
 
   int n_, own_, k_;
-  std::vector<double> band_;          // n x 12 lower band of A
-  Eigen::MatrixXd border_;            // k x n: U^T
-  Eigen::MatrixXd corner_;            // k x k: D
-  Eigen::VectorXd gradient_;          // n + k
-  std::vector<double> factor_;        // n x 12: Cholesky factor of A
-  Eigen::MatrixXd reduced_border_;    // k x n: (L^-1 U)^T
+  std::vector<double> band_;  // n x 12 lower band of A
+  Eigen::MatrixXd border_;    // k x n: U^T
+  struct Piece {              // of U^T: some columns, and the border unknowns that meet them
+    int first = 0;
+    std::vector<int> border;
+    Eigen::MatrixXd values;
+  };
+  std::vector<Piece> pieces_;
+  Eigen::MatrixXd corner_;          // k x k: D
+  Eigen::VectorXd gradient_;        // n + k
+  std::vector<double> factor_;      // n x 12: Cholesky factor of A
+  std::vector<int> met_, left_;     // unknowns of the path that a border unknown meets: first, end
+  std::vector<int> order_;          // of the border, by met_
+  Eigen::MatrixXd reduced_border_;  // k x n: (L^-1 U)^T, sorted; only what is met so far is set
   Eigen::VectorXd reduced_gradient_;  // n: L^-1 g_x
   Eigen::MatrixXd own_factor_;        // own x own: Cholesky factor of the own Schur complement
   Eigen::MatrixXd own_to_shared_;     // own x shared: Schur complement's block

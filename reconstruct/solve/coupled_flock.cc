@@ -120,14 +120,10 @@ CameraMotion CoupledFlock::CameraAt(const Bird& bird, int knot) const {
   return model_.camera.At((bird.first_knot + knot) * model_.knot_interval);
 }
 
-double CoupledFlock::Whitening(int knot) const {
-  const double rho = noise.Correlation(model_.knot_interval);
-  return 1 / (knot == 0 ? noise.sd : noise.StepSd(rho));
-}
-
 double CoupledFlock::Cost() const {
   const std::vector<Knot> states = States();
-  const double rho = noise.Correlation(model_.knot_interval), reach = forces.Reach();
+  const MarkovWhitening whitening = Whitening();
+  const double reach = forces.Reach();
   PairForce pairs(forces);
   Heard heard;
   double cost = SharedPriors(model_, shared_, nullptr, nullptr) + ForcePriors(nullptr, nullptr);
@@ -144,7 +140,7 @@ double CoupledFlock::Cost() const {
       const Vec3d force = pairs(heard.offsets, nullptr, nullptr) +
                           SelfForce(forces, birds_[i].own[kOwnLogSpeed], time, s.x, s.v, nullptr);
       const Vec3d error = (birds_[i].reference_depth / s.z) * (s.a - force);
-      const Vec3d row = Whitening(k) * (k == 0 ? error : error - rho * before);
+      const Vec3d row = whitening.At(k) * (k == 0 ? error : error - whitening.rho * before);
       for (int axis = 0; axis < 3; ++axis) {
         cost += RobustCost(Term::kAcceleration, Component(row, axis));
       }

@@ -141,7 +141,7 @@ class CoupledFlock {
   };
   void Hear(std::size_t line, double reach, const std::vector<Knot>& states, Heard* heard) const;
   CameraMotion CameraAt(const Bird& bird, int knot) const;
-  double Whitening(int knot) const;  // of the row that ends at this knot of its animal
+  MarkovWhitening Whitening() const { return {noise, model_.knot_interval}; }
   double ForcePriors(Eigen::MatrixXd* matrix, Eigen::VectorXd* gradient) const;
   void Move(const Eigen::VectorXd& step);
   int border() const { return model_.shared() + forces.size(); }
@@ -162,7 +162,7 @@ class CoupledFlock {
                       std::span<const ByOffset> by, const SelfDerivatives& self, Line* line) const;
   void LinearizeLine(std::size_t bird, int knot, const std::vector<Knot>& states, double reach,
                      Scratch* scratch);
-  ArrowSystem::Rows RowsOf(std::size_t bird, int knot) const;
+  ArrowSystem::Rows RowsOf(std::size_t bird, int knot, const MarkovWhitening& whitening) const;
 
   // coupled_system.cc: how the errors change with the unknowns, by the animal's own (border
   // included) and by those of its neighbours; whitened, weighted and whitened back; and the way

@@ -30,7 +30,7 @@ Columns<CoupledFlock::kSamples> CoupledFlock::Draw(std::uint64_t seed) const {
   using Row = Eigen::Matrix<double, 1, kSamples>;
   Columns<kSamples> pulled = Columns<kSamples>::Zero(gradient_.size(), kSamples);
   Errors<kSamples> errors(lines_.size());
-  const double rho = noise.Correlation(model_.knot_interval);
+  const MarkovWhitening whitening = Whitening();
   const auto normals = [](Rng& rng) {
     Row row;
     for (double& x : row) x = rng.Normal();
@@ -56,9 +56,9 @@ Columns<CoupledFlock::kSamples> CoupledFlock::Draw(std::uint64_t seed) const {
     for (int k = 0; k < bird.knots; ++k) {
       const std::size_t at = LineOf(i, k);
       for (int axis = 0; axis < 3; ++axis) {
-        errors[at].row(axis) = Whitening(k) * std::sqrt(lines_[at].weight[axis]) * normals(rng);
+        errors[at].row(axis) = whitening.At(k) * std::sqrt(lines_[at].weight[axis]) * normals(rng);
       }
-      if (k > 0) errors[LineOf(i, k - 1)] -= rho * errors[at];
+      if (k > 0) errors[LineOf(i, k - 1)] -= whitening.rho * errors[at];
     }
   }
   PullOwn<kSamples>(errors, &pulled);

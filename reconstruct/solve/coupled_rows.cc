@@ -101,28 +101,34 @@ void CoupledFlock::LinearizeLine(std::size_t bird, int knot, const std::vector<K
   line.by_target = -factor * self.by_target;
 }
 
-ArrowSystem::Rows CoupledFlock::RowsOf(std::size_t bird, int knot) const {
+ArrowSystem::Rows CoupledFlock::RowsOf(std::size_t bird, int knot,
+                                       const MarkovWhitening& whitening) const {
   const bool first = knot == 0;
-  const double whitening = Whitening(knot), rho = noise.Correlation(model_.knot_interval);
   ArrowSystem::Rows rows;
   rows.first = first ? 0 : 3 * (knot - 1);
   rows.residual.setZero();
   rows.path.setZero();
   rows.own = kOwnLogSpeed;
   rows.by_own.setZero();
-  rows.by_last = Eigen::MatrixXd::Zero(3, forces.size());
+  auto& [scalars, targets] = rows.by_shared;
+  scalars = {model_.shared(), Eigen::Matrix<double, 3, kForceScalars>::Zero()};
+  const auto target_at = [&](int back) {
+    return forces.ShareAt((birds_[bird].first_knot + knot - back) * model_.knot_interval);
+  };
+  const int first_target = target_at(first ? 0 : 1).knot, last_target = target_at(0).knot;
+  targets.first = model_.shared() + kForceScalars + 3 * first_target;
+  targets.by.setZero(3, 3 * (last_target + 2 - first_target));
   for (int l = 0; l < (first ? 1 : 2); ++l) {
-    const double share = l == 0 ? whitening : -whitening * rho;
+    const double share = (l == 0 ? 1 : -whitening.rho) * whitening.At(knot);
     const Line& line = lines_[LineOf(bird, knot - l)];
     rows.residual += share * AsEigen(line.error);
     rows.path.middleCols<9>(first || l == 1 ? 0 : 3) += share * line.own;
     rows.by_own += share * line.by_log_speed;
-    rows.by_last.leftCols<kForceScalars>() += share * line.by_forces;
-    const FlockForces::Share target =
-        forces.ShareAt((birds_[bird].first_knot + knot - l) * model_.knot_interval);
-    const int at = kForceScalars + 3 * target.knot;
-    rows.by_last.middleCols<3>(at) += share * (1 - target.next) * line.by_target;
-    rows.by_last.middleCols<3>(at + 3) += share * target.next * line.by_target;
+    scalars.by += share * line.by_forces;
+    const FlockForces::Share target = target_at(l);
+    const int at = 3 * (target.knot - first_target);
+    targets.by.middleCols<3>(at) += share * (1 - target.next) * line.by_target;
+    targets.by.middleCols<3>(at + 3) += share * target.next * line.by_target;
   }
   return rows;
 }
@@ -151,6 +157,7 @@ void CoupledFlock::Linearize() {
   gradient_.tail(border()) = of_priors;
   diagonal_.tail(border()) = priors_.diagonal();
   Errors<1> pulls(lines_.size());
+  const MarkovWhitening whitening = Whitening();
   for (std::size_t i = 0; i < birds_.size(); ++i) {
     const Bird& bird = birds_[i];
     ArrowSystem& animal = animals_[i];
@@ -159,7 +166,7 @@ void CoupledFlock::Linearize() {
       if (term != Term::kAcceleration) animal.Add(row, RobustWeight(term, row.residual));
     });
     for (int k = 0; k < bird.knots; ++k) {
-      const ArrowSystem::Rows rows = RowsOf(i, k);
+      const ArrowSystem::Rows rows = RowsOf(i, k, whitening);
       Line& line = lines_[LineOf(i, k)];
       for (int axis = 0; axis < 3; ++axis) {
         line.weight[axis] = RobustWeight(Term::kAcceleration, rows.residual[axis]);
@@ -167,6 +174,7 @@ void CoupledFlock::Linearize() {
       animal.Add(rows, line.weight);
       pulls[LineOf(i, k)] = AsEigen(line.error);
     }
+    animal.GatherBorder();
     const int unknowns = bird.unknowns() + kOwnUnknowns;
     gradient_.segment(place_[i], unknowns) += animal.gradient().head(unknowns);
     gradient_.tail(border()) += animal.gradient().tail(border());

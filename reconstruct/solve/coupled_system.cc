@@ -43,16 +43,16 @@ void CoupledFlock::ChangesOf(const Columns<Count>& x, Errors<Count>* own,
     const Bird& bird = birds_[i];
     const Line& line = lines_[at];
     const Eigen::Matrix<double, 9, Count> path = x.template middleRows<9>(place_[i] + 3 * k);
-    states[at].noalias() = line.state * path;
+    states[at] = line.state.lazyProduct(path);
     const FlockForces::Share target = forces.ShareAt((bird.first_knot + k) * model_.knot_interval);
     const Eigen::Index knot = first_force + kForceScalars + 3 * target.knot;
     const Eigen::Matrix<double, 3, Count> goal =
         (1 - target.next) * x.template middleRows<3>(knot) +
         target.next * x.template middleRows<3>(knot + 3);
     auto& change = (*own)[at];
-    change.noalias() = line.own * path;
-    change.noalias() += line.by_forces * scalars;
-    change.noalias() += line.by_target * goal;
+    change = line.own.lazyProduct(path);
+    change += line.by_forces.lazyProduct(scalars);
+    change += line.by_target.lazyProduct(goal);
     change.noalias() += line.by_log_speed * x.row(place_[i] + bird.unknowns() + kOwnLogSpeed);
   });
   std::size_t edge = 0, inside = 0;
@@ -72,15 +72,15 @@ void CoupledFlock::ChangesOf(const Columns<Count>& x, Errors<Count>* own,
 // A^T W A e, A the whitening of one animal's errors.
 template <int Count>
 void CoupledFlock::Weigh(Errors<Count>* errors) const {
-  const double rho = noise.Correlation(model_.knot_interval);
+  const MarkovWhitening whitening = Whitening();
   for (std::size_t i = 0; i < birds_.size(); ++i) {
     Eigen::Matrix<double, 3, Count> before = Eigen::Matrix<double, 3, Count>::Zero();
     for (int k = 0; k < birds_[i].knots; ++k) {
       const std::size_t at = LineOf(i, k);
-      const double whitening = Whitening(k) * Whitening(k);
+      const double square = whitening.At(k) * whitening.At(k);
       const Eigen::Matrix<double, 3, Count> error = (*errors)[at];
-      (*errors)[at] = (whitening * lines_[at].weight).asDiagonal() * (error - rho * before);
-      if (k > 0) (*errors)[LineOf(i, k - 1)] -= rho * (*errors)[at];
+      (*errors)[at] = (square * lines_[at].weight).asDiagonal() * (error - whitening.rho * before);
+      if (k > 0) (*errors)[LineOf(i, k - 1)] -= whitening.rho * (*errors)[at];
       before = error;
     }
   }
@@ -93,11 +93,11 @@ void CoupledFlock::PullOwn(const Errors<Count>& errors, Columns<Count>* y) const
     const Bird& bird = birds_[i];
     const Line& line = lines_[at];
     const auto& error = errors[at];
-    y->template middleRows<9>(place_[i] + 3 * k).noalias() += line.own.transpose() * error;
+    y->template middleRows<9>(place_[i] + 3 * k) += line.own.transpose().lazyProduct(error);
     y->row(place_[i] + bird.unknowns() + kOwnLogSpeed).noalias() +=
         line.by_log_speed.transpose() * error;
-    y->template middleRows<kForceScalars>(first_force).noalias() +=
-        line.by_forces.transpose() * error;
+    y->template middleRows<kForceScalars>(first_force) +=
+        line.by_forces.transpose().lazyProduct(error);
     const FlockForces::Share target = forces.ShareAt((bird.first_knot + k) * model_.knot_interval);
     const Eigen::Index knot = first_force + kForceScalars + 3 * target.knot;
     const Eigen::Matrix<double, 3, Count> goal = line.by_target.transpose() * error;
@@ -123,8 +123,8 @@ void CoupledFlock::PullHeard(const Errors<Count>& errors, Columns<Count>* y) con
     }
   }
   ForEachLine([&](std::size_t i, int k, std::size_t at) {
-    y->template middleRows<9>(place_[i] + 3 * k).noalias() +=
-        lines_[at].state.transpose() * states[at];
+    y->template middleRows<9>(place_[i] + 3 * k) +=
+        lines_[at].state.transpose().lazyProduct(states[at]);
   });
 }
 

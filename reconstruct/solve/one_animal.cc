@@ -114,7 +114,7 @@ void OneAnimal::Update() {
 }
 
 double OneAnimal::Cost() const {
-  const double rho = flock_.noise.Correlation(flock_.model_.knot_interval);
+  const MarkovWhitening whitening = flock_.Whitening();
   double cost = 0;
   ForEachRow(flock_.model_, bird(), flock_.shared_, false, [&](Term term, const ResidualRow& row) {
     if (term != Term::kAcceleration) cost += RobustCost(term, row.residual);
@@ -123,7 +123,7 @@ double OneAnimal::Cost() const {
     Vec3d before;
     for (int k = 0; k < flock_.birds_[i].knots; ++k) {
       const Vec3d& error = errors_[flock_.LineOf(i, k)];
-      const Vec3d row = flock_.Whitening(k) * (k == 0 ? error : error - rho * before);
+      const Vec3d row = whitening.At(k) * (k == 0 ? error : error - whitening.rho * before);
       for (int axis = 0; axis < 3; ++axis) {
         cost += RobustCost(Term::kAcceleration, Component(row, axis));
       }
@@ -143,7 +143,7 @@ void OneAnimal::Linearize() {
 }
 
 void OneAnimal::LinearizeOwn() {
-  const double rho = flock_.noise.Correlation(flock_.model_.knot_interval);
+  const MarkovWhitening whitening = flock_.Whitening();
   PairUnknownsMatrix unused;
   for (int k = 0; k < bird().knots; ++k) {
     Line& line = lines_[Index(k)];
@@ -154,20 +154,19 @@ void OneAnimal::LinearizeOwn() {
     const Vec3d force = pairs_(heard_, by_heard_.data(), &unused) + SelfForceAt(animal_, k, &self);
     flock_.LinearizeError(animal_, states_[flock_.LineOf(animal_, k)], force, by_heard_, self,
                           &line);
-    const double whitening = flock_.Whitening(k);
+    const double now = whitening.At(k), past = now * whitening.rho;
     ArrowSystem::Rows rows;
     rows.first = 3 * std::max(k - 1, 0);
-    rows.residual = whitening * AsEigen(line.error);
+    rows.residual = now * AsEigen(line.error);
     rows.path.setZero();
-    rows.path.middleCols<9>(k > 0 ? 3 : 0) = whitening * line.own;
+    rows.path.middleCols<9>(k > 0 ? 3 : 0) = now * line.own;
     rows.own = kOwnLogSpeed;
-    rows.by_own = whitening * line.by_log_speed;
-    rows.by_last.resize(3, 0);
+    rows.by_own = now * line.by_log_speed;
     if (k > 0) {
       const Line& before = lines_[Index(k - 1)];
-      rows.residual -= whitening * rho * AsEigen(before.error);
-      rows.path.leftCols<9>() -= whitening * rho * before.own;
-      rows.by_own -= whitening * rho * before.by_log_speed;
+      rows.residual -= past * AsEigen(before.error);
+      rows.path.leftCols<9>() -= past * before.own;
+      rows.by_own -= past * before.by_log_speed;
     }
     system_.Add(rows, Weights(rows.residual));
   }
@@ -175,7 +174,7 @@ void OneAnimal::LinearizeOwn() {
 
 // Whitened rows of others by this one's states at two knots, summed, and then by its path.
 void OneAnimal::LinearizeOthers() {
-  const double rho = flock_.noise.Correlation(flock_.model_.knot_interval);
+  const MarkovWhitening whitening = flock_.Whitening();
   const int first = bird().first_knot, knots = bird().knots;
   for (int k = 0; k < knots; ++k) {
     const std::size_t own = flock_.LineOf(animal_, k);
@@ -198,8 +197,8 @@ void OneAnimal::LinearizeOthers() {
       const std::size_t before = follows ? flock_.LineOf(j, knot - 1) : line;
       const bool now = k < knots && hears_[line], then = k > 0 && follows && hears_[before];
       if (!now && !then) return;
-      const double whitening = flock_.Whitening(knot), past = whitening * rho;
-      Eigen::Vector3d residual = whitening * AsEigen(errors_[line]);
+      const double present = whitening.At(knot), past = present * whitening.rho;
+      Eigen::Vector3d residual = present * AsEigen(errors_[line]);
       if (follows) residual -= past * AsEigen(errors_[before]);
       Eigen::Matrix<double, 3, 12> rows = Eigen::Matrix<double, 3, 12>::Zero();
       const auto by = [&](std::size_t at, double share, int column) {
@@ -208,10 +207,10 @@ void OneAnimal::LinearizeOthers() {
         rows.middleCols<3>(column + 3).diagonal().setConstant(factor * by_[at].v);
       };
       if (then) by(before, -past, 0);
-      if (now) by(line, whitening, 6);
+      if (now) by(line, present, 6);
       const Eigen::Matrix<double, 12, 3> weighted =
           rows.transpose() * Weights(residual).asDiagonal();
-      square.noalias() += weighted * rows;
+      square += weighted.lazyProduct(rows);
       pull.noalias() += weighted * residual;
     });
     ArrowSystem::Square by_path = ArrowSystem::Square::Zero();  // of the states

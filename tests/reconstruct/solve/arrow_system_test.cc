@@ -12,7 +12,8 @@
 namespace flocklift::internal {
 namespace {
 
-constexpr int kUnknowns = 27, kOwn = 2, kShared = 3;
+// The path is longer than what is eliminated at once.
+constexpr int kUnknowns = 111, kOwn = 2, kShared = 3;
 
 // The same residuals, banded with a border and as one dense Jacobian.
 struct Both {
@@ -37,16 +38,23 @@ struct Both {
   }
 };
 
+// The path meets one of the flock's unknowns late and leaves another soon.
+bool Meets(int first, int border) {
+  return border == kOwn ? first >= 60 : border == kOwn + 1 ? first < 30 : true;
+}
+
 Both RandomSystem() {
   Both both;
   Rng rng(5);
-  for (int k = 0; k < 80; ++k) {
+  for (int k = 0; k < 300; ++k) {
     ResidualRow row;
     row.first = 3 * static_cast<int>(rng.Below(kUnknowns / 3));
     row.residual = rng.Normal();
     for (double& d : row.path) d = rng.Normal();
-    row.AddBorder(static_cast<int>(rng.Below(kOwn + kShared)), rng.Normal());
-    row.AddBorder(static_cast<int>(rng.Below(kOwn + kShared)), rng.Normal());
+    for (int n = 0; n < 2; ++n) {
+      const int border = static_cast<int>(rng.Below(kOwn + kShared));
+      if (Meets(row.first, border)) row.AddBorder(border, rng.Normal());
+    }
     both.Add(row, rng.Uniform(0.5, 2));
   }
   return both;
@@ -77,6 +85,7 @@ TEST(ArrowSystem, MultipliesAndSolvesAnyRightHandSide) {
   const Columns<8> expected = normal * x;
 
   Columns<8> y = Columns<8>::Zero(kUnknowns + kOwn, 8), shared = Columns<8>::Zero(kShared, 8);
+  both.arrow.GatherBorder();
   both.arrow.Multiply<8>(x.topRows(kUnknowns + kOwn), x.bottomRows(kShared), y, &shared);
   EXPECT_LT((y - expected.topRows(kUnknowns + kOwn)).norm(), 1e-10 * expected.norm());
   EXPECT_LT((shared - expected.bottomRows(kShared)).norm(), 1e-10 * expected.norm());
@@ -98,9 +107,13 @@ TEST(ArrowSystem, AddsThreeResidualsAsOneByOne) {
     ArrowSystem::Rows rows;
     rows.first = first;
     rows.own = 1;
-    rows.by_last.resize(3, 2);
+    auto& [early, late] = rows.by_shared;
+    early.by.resize(3, 1);
+    late.first = 1;
+    late.by.resize(3, 2);
     for (double& v : rows.path.reshaped()) v = rng.Normal();
-    for (double& v : rows.by_last.reshaped()) v = rng.Normal();
+    for (double& v : early.by.reshaped()) v = rng.Normal();
+    for (double& v : late.by.reshaped()) v = rng.Normal();
     const Eigen::Vector3d weight(0.5, 1, 2);
     Both one;
     for (int r = 0; r < 3; ++r) {
@@ -109,8 +122,9 @@ TEST(ArrowSystem, AddsThreeResidualsAsOneByOne) {
       row.residual = rows.residual[r] = rng.Normal();
       for (int a = 0; a < 12; ++a) row.path[static_cast<std::size_t>(a)] = rows.path(r, a);
       row.AddBorder(rows.own, rows.by_own[r] = rng.Normal());
-      row.AddBorder(kOwn + kShared - 2, rows.by_last(r, 0));
-      row.AddBorder(kOwn + kShared - 1, rows.by_last(r, 1));
+      row.AddBorder(kOwn, early.by(r, 0));
+      row.AddBorder(kOwn + 1, late.by(r, 0));
+      row.AddBorder(kOwn + 2, late.by(r, 1));
       one.Add(row, weight[r]);
     }
     ArrowSystem three(kUnknowns, kOwn, kShared);
@@ -122,6 +136,8 @@ TEST(ArrowSystem, AddsThreeResidualsAsOneByOne) {
     }
     const Columns<1> ones = Columns<1>::Ones(kUnknowns + kOwn), last = Columns<1>::Ones(kShared);
     Columns<1> y = 0 * ones, out = 0 * last, other = y, others = out;
+    three.GatherBorder();
+    one.arrow.GatherBorder();
     three.Multiply<1>(ones, last, y, &out);
     one.arrow.Multiply<1>(ones, last, other, &others);
     EXPECT_LT((y - other).norm(), 1e-12);
@@ -158,7 +174,7 @@ TEST(ArrowSystem, CovarianceIsThatOfTheDenseSystem) {
   const ArrowSystem::Posterior posterior = both.arrow.Covariance(shared);
 
   Rng rng(9);
-  for (int first : {0, 6, 15, 18}) {  // the last reaches past the end
+  for (int first : {0, 45, 57, kUnknowns - 9}) {  // the last reaches past the end
     ResidualRow row;
     row.first = first;
     for (double& d : row.path) d = rng.Normal();
