@@ -90,20 +90,30 @@ class MarkovRows {
         rho_(process.Correlation(dt)),
         step_sd_(process.StepSd(rho_)) {}
 
-  void Push(int knot, const Feature& feature, const RowSink& take) {
+  void Push(int knot, const Feature& feature, bool derivatives, const RowSink& take) {
     ResidualRow row;
+    if (!derivatives) {
+      const bool goes_on = knot == knot_ + 1;
+      row.residual =
+          goes_on ? (feature.value - rho_ * before_.value) / step_sd_ : feature.value / sd_;
+      before_.value = feature.value;
+      knot_ = knot;
+      take(term_, row);
+      return;
+    }
     if (knot == knot_ + 1) {
       row.first = 3 * knot_;
       row.residual = (feature.value - rho_ * before_.value) / step_sd_;
+      const double now = 1 / step_sd_, past = rho_ / step_sd_;
       for (int a = 0; a < kPathWidth; ++a) {
-        row.path[a] -= rho_ * before_.path[a] / step_sd_;
-        row.path[a + 3] += feature.path[a] / step_sd_;
+        row.path[a] -= past * before_.path[a];
+        row.path[a + 3] += now * feature.path[a];
       }
       for (int a = 0; a < before_.border_count; ++a) {
-        row.AddBorder(before_.border[a].first, -rho_ * before_.border[a].second / step_sd_);
+        row.AddBorder(before_.border[a].first, -past * before_.border[a].second);
       }
       for (int a = 0; a < feature.border_count; ++a) {
-        row.AddBorder(feature.border[a].first, feature.border[a].second / step_sd_);
+        row.AddBorder(feature.border[a].first, now * feature.border[a].second);
       }
     } else {
       row.first = 3 * knot;
@@ -215,7 +225,7 @@ void TakeIndividual(const BatchModel& model, const Bird& bird, const Eigen::Vect
 
 void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                 bool derivatives, const RowSink& take) {
-  TakeReprojections(bird, take);
+  TakeReprojections(bird, derivatives, take);
   TakeViews(bird, take);
   const Spreads& s = model.spreads;
   const double dt = model.knot_interval;
@@ -232,7 +242,7 @@ void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd
                                         : term == Term::kClimb      ? climb
                                         : term == Term::kSize       ? size
                                                                     : depth;
-                     rows.Push(knot, feature, take);
+                     rows.Push(knot, feature, derivatives, take);
                    });
   }
   TakeAnchors(bird, take);

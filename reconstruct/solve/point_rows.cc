@@ -43,7 +43,8 @@ ResidualRow RowOf(const Bird::Place& place, const Jet12& error, double sd) {
 
 }  // namespace
 
-void TakeReprojections(const Bird& bird, const RowSink& take) {
+void TakeReprojections(const Bird& bird, bool derivatives, const RowSink& take) {
+  std::array<ResidualRow, 2> rows;
   for (std::size_t k = 0; k < bird.places.size(); ++k) {
     const Bird::Place& place = bird.places[k];
     const Sighting& sighting = bird.segment->sightings[k];
@@ -51,10 +52,12 @@ void TakeReprojections(const Bird& bird, const RowSink& take) {
     std::array<double, 2> residuals;
     error(&bird.path[3 * static_cast<std::size_t>(place.interval)], residuals.data());
     for (int axis = 0; axis < 2; ++axis) {
-      ResidualRow row;
+      ResidualRow& row = rows[axis];
       row.first = 3 * place.interval;
       row.residual = residuals[axis];
-      for (int a = 0; a < 4; ++a) row.path[3 * a + axis] = place.weights[a] / sighting.ray_sd;
+      for (int a = 0; a < 4 && derivatives; ++a) {
+        row.path[3 * a + axis] = place.weights[a] / sighting.ray_sd;
+      }
       take(Term::kReprojection, row);
     }
   }

@@ -12,8 +12,9 @@
 
 namespace flocklift::internal {
 
-// (x(t) - ray) / ray_sd for either coordinate (cost_functions/reprojection.h).
-void TakeReprojections(const Bird& bird, const RowSink& take);
+// (x(t) - ray) / ray_sd for either coordinate (cost_functions/reprojection.h); derivatives only
+// when asked.
+void TakeReprojections(const Bird& bird, bool derivatives, const RowSink& take);
 
 // The same in the picture of the second camera, with q = view_from_ref * (z n):
 //   (q_x / q_z - ray_x) / ray_sd,  (q_y / q_z - ray_y) / ray_sd
