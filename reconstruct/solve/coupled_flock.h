@@ -35,7 +35,7 @@ namespace flocklift::internal {
 // When to be content.
 struct Effort {
   double enough = 0.1;  // fall of the cost that counts, for each animal
-  GradientStop step{.share = 3e-3, .most = 200};
+  GradientStop step{.share = 1e-2, .most = 200};
 };
 
 class CoupledFlock {
@@ -177,7 +177,7 @@ class CoupledFlock {
   void PullHeard(const Errors<Count>& errors, Columns<Count>* y) const;
 
   // coupled_posterior.cc: draws from the posterior, side by side.
-  Columns<kSamples> Draw(std::uint64_t seed) const;
+  Columns<kSamples> Draw(std::uint64_t seed, const GradientStop& stop) const;
 
   const BatchModel& model_;
   std::vector<Bird>& birds_;

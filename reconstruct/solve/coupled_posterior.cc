@@ -18,15 +18,18 @@
 namespace flocklift::internal {
 namespace {
 
-// Draws need not be more exact than their number makes variances.
-constexpr GradientStop kDrawStop{.share = 1e-3, .most = 200};
+// Draws need not be more exact than their number makes variances. What animals have in common is
+// solved for last; errors of single ones, from which the noise is estimated, hardly depend on it.
+constexpr GradientStop kDepthStop{.share = 1e-3, .most = 200};
+constexpr GradientStop kNoiseStop{.share = 5e-3, .most = 200};
 constexpr std::uint64_t kNoiseSeed = 1, kDepthSeed = 2;
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-Columns<CoupledFlock::kSamples> CoupledFlock::Draw(std::uint64_t seed) const {
+Columns<CoupledFlock::kSamples> CoupledFlock::Draw(std::uint64_t seed,
+                                                   const GradientStop& stop) const {
   using Row = Eigen::Matrix<double, 1, kSamples>;
   Columns<kSamples> pulled = Columns<kSamples>::Zero(gradient_.size(), kSamples);
   Errors<kSamples> errors(lines_.size());
@@ -68,14 +71,14 @@ Columns<CoupledFlock::kSamples> CoupledFlock::Draw(std::uint64_t seed) const {
   Rng rng(seed, birds_.size());
   for (Eigen::Index k = 0; k < border(); ++k) e.row(k) = normals(rng);
   pulled.bottomRows(border()) += priors.matrixL() * e;
-  return Solve<kSamples>(pulled, kDrawStop);
+  return Solve<kSamples>(pulled, stop);
 }
 
 double CoupledFlock::EstimateNoise() {
   Linearize();
   if (!Factorise(0)) return noise.sd;
   Errors<kSamples> changes, heard;
-  ChangesOf<kSamples>(Draw(kNoiseSeed), &changes, &heard);
+  ChangesOf<kSamples>(Draw(kNoiseSeed, kNoiseStop), &changes, &heard);
   constexpr double kInterval = 0.5;  // between the errors that are looked at [s]
   constexpr double kLeastSeen = 0.05;
   const int stride = std::max(1, static_cast<int>(std::lround(kInterval / model_.knot_interval)));
@@ -105,7 +108,7 @@ CoupledFlock::DepthSds CoupledFlock::Depths(int draws) {
   double of_mean = 0;
   using Row = Eigen::Matrix<double, 1, kSamples>;
   for (int draw = 0; draw < draws; ++draw) {
-    const Columns<kSamples> x = Draw(kDepthSeed + static_cast<std::uint64_t>(draw));
+    const Columns<kSamples> x = Draw(kDepthSeed + static_cast<std::uint64_t>(draw), kDepthStop);
     const auto depth = [&](std::size_t i, const Bird::Place& place) {
       Row sum = Row::Zero();
       for (int a = 0; a < 4; ++a) {

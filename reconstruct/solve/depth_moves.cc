@@ -71,7 +71,7 @@ int MoveAlone(const BatchModel& model, FollowedFlock* flock, std::vector<Place>*
 }  // namespace
 
 int MoveDepths(const BatchModel& model, FollowedFlock* flock) {
-  constexpr std::size_t kMost = 12;  // places that the whole flock settles for
+  constexpr std::size_t kMost = 8;  // places that the whole flock settles for
   std::vector<Place> places;
   const FollowedFlock before = *flock;
   int moved = MoveAlone(model, flock, &places);
