@@ -23,20 +23,17 @@
 namespace flocklift {
 namespace {
 
-// The first frame with most animals.
-int FullestFrame(const Trajectories& trajectories) {
-  std::map<int, int> counts;
+// Where most is to be compared with: the first frame whose animals are seen in most frames from
+// there on, all together. (Most animals at once may be there just before the end.)
+int FrameToStartAt(const Trajectories& trajectories) {
+  std::map<int, std::size_t> ahead;
   for (const Trajectory& trajectory : trajectories.trajectories) {
-    for (const TrajectoryPoint& point : trajectory.points) ++counts[point.frame];
+    std::size_t left = trajectory.points.size();
+    for (const TrajectoryPoint& point : trajectory.points) ahead[point.frame] += left--;
   }
-  int best = 0, most = 0;
-  for (const auto& [frame, count] : counts) {
-    if (count > most) {
-      most = count;
-      best = frame;
-    }
-  }
-  return best;
+  const auto best = std::max_element(
+      ahead.begin(), ahead.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return best == ahead.end() ? 0 : best->first;
 }
 
 double MeanSpeed(const Trajectory& trajectory) {
@@ -181,7 +178,7 @@ ReplayResult Replay(const ReplayOptions& options, const Parameters& parameters,
   Check(reconstruction.has_velocity, "a replay starts from velocities: fill them first");
   CheckObstacles(options, parameters.model, obstacles);
   ReplayResult result;
-  result.start_frame = options.frame > 0 ? options.frame : FullestFrame(reconstruction);
+  result.start_frame = options.frame > 0 ? options.frame : FrameToStartAt(reconstruction);
   const Departures departures(scene, parameters, reconstruction, fps, options.substeps);
   const int substeps = departures.substeps();
   const bool from_scene_start = DepartsFromSceneStart(parameters.model);

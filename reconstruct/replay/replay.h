@@ -35,7 +35,8 @@ struct ReplayOptions {
 
 template <typename Visitor>
 void Describe(Visitor& visit, ReplayOptions& o) {
-  visit("frame", o.frame, {.low = 0}, "", "where to start; 0: the first frame with most animals");
+  visit("frame", o.frame, {.low = 0}, "",
+        "where to start; 0: where those in view are seen longest from, all together");
   visit("duration", o.duration, {.low = 0, .high = 1e5}, "s",
         "how long to fly on; 0: to the reconstruction's last frame");
   visit("count", o.count, {.low = 0, .high = 1e6}, "",

@@ -88,7 +88,23 @@ Trajectories Pair() {
   return pair;
 }
 
-TEST(Replay, KeepsFramesAndIdsAndStartsWhereMostAre) {
+TEST(Replay, StartsWhereMostIsStillToCome) {
+  Trajectories flock = Pair();
+  Trajectory late = flock.trajectories[0];
+  late.id = 10;
+  for (TrajectoryPoint& point : late.points) {
+    point.position.y = -1000;
+    point.frame += 15;  // three animals from frame 18 on, two before
+  }
+  flock.trajectories.push_back(late);
+  const ModelSpec boids{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
+  EXPECT_EQ(Replay({}, By(boids), flock, kFps, 1, 1).start_frame, 3);
+  std::erase_if(flock.trajectories[0].points, [](const auto& p) { return p.frame < 18; });
+  std::erase_if(flock.trajectories[1].points, [](const auto& p) { return p.frame > 5; });
+  EXPECT_EQ(Replay({}, By(boids), flock, kFps, 1, 1).start_frame, 18);
+}
+
+TEST(Replay, KeepsFramesAndIds) {
   const ReplayResult result = Replay(
       {}, By({.name = "boids", .parameters = {}, .where = {}, .where_of = {}}), Pair(), kFps, 1, 1);
   EXPECT_EQ(result.start_frame, 3);
