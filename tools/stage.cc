@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "simulate/core/atomic_file.h"
+#include "simulate/core/build_id.h"
 #include "simulate/core/check.h"
 #include "tools/progress_bar.h"
 #include "tools/version.h"
@@ -103,7 +104,11 @@ void Stage::AddInput(const fs::path& path) {
 }
 
 Json Stage::Fingerprint() const {
-  return {{"command", name_}, {"version", kVersion}, {"options", options_}, {"inputs", inputs_}};
+  return {{"command", name_},
+          {"version", kVersion},
+          {"build", BuildId()},
+          {"options", options_},
+          {"inputs", inputs_}};
 }
 
 bool Stage::IsUpToDate() const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "simulate/core/atomic_file.h"
+#include "simulate/core/build_id.h"
 #include "simulate/core/state_archive.h"
 #include "track/video_source.h"
 
@@ -50,8 +51,7 @@ std::string FingerprintOf(const TrackerOptions& options, const fs::path& footage
   TextOfOptions described;
   TrackerOptions copy = options;
   Describe(described, copy);
-  std::string text =
-      fmt::format("flocklift {} state {}\n", FLOCKLIFT_VERSION, kLayout) + described.text;
+  std::string text = fmt::format("{} state {}\n", ProgramIdentity(), kLayout) + described.text;
   const std::vector<fs::path> pictures = FootagePictures(footage);
   if (pictures.empty()) AppendFile(fs::absolute(footage), &text);
   for (const fs::path& picture : pictures) AppendFile(fs::absolute(picture), &text);

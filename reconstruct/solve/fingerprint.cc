@@ -3,12 +3,14 @@
 
 #include "reconstruct/solve/fingerprint.h"
 
+#include "simulate/core/build_id.h"
+
 namespace flocklift::internal {
 
 std::uint64_t FingerprintOf(const BatchOptions& options, const Knowledge& knowledge,
                             const Segments& segments, double fps, std::uint64_t method) {
   Hash hash;
-  hash.Add(std::string_view(FLOCKLIFT_VERSION));
+  hash.Add(std::string_view(ProgramIdentity()));
   hash.Add(method);
   hash.Add(fps);
   BatchOptions described = options;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "simulate/core/atomic_file.h"
+#include "simulate/core/build_id.h"
 #include "simulate/core/scene_io.h"
 #include "simulate/core/state_archive.h"
 
@@ -62,8 +63,7 @@ bool Parse(std::string_view bytes, const std::string& fingerprint, SavedState* s
 SceneCheckpoint::SceneCheckpoint(fs::path folder, std::chrono::seconds every, const Scene& scene)
     : folder_(std::move(folder)), every_(every), last_(std::chrono::steady_clock::now()) {
   if (!folder_.empty()) {
-    fingerprint_ =
-        fmt::format("flocklift {} state {}\n", FLOCKLIFT_VERSION, kLayout) + FormatScene(scene);
+    fingerprint_ = fmt::format("{} state {}\n", ProgramIdentity(), kLayout) + FormatScene(scene);
   }
 }
 

@@ -72,6 +72,17 @@ TEST_F(StageTest, WorksAgainOnlyWhenSomethingChanged) {
   EXPECT_TRUE(Run(2));  // the summary is no JSON
 }
 
+TEST_F(StageTest, WorksAgainInAnotherBuild) {
+  EXPECT_TRUE(Run(1));
+  const fs::path path = folder_ / "summary.copy.json";
+  nlohmann::json summary;
+  std::ifstream(path) >> summary;
+  summary.at("build") = "of another program";
+  WriteTextFile(path, summary.dump());
+  EXPECT_TRUE(Run(1));
+  EXPECT_FALSE(Run(1));
+}
+
 TEST_F(StageTest, NeverSkipsUnlessAsked) {
   common_.reuse = false;
   EXPECT_TRUE(Run(1));
