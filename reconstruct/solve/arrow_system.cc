@@ -12,14 +12,6 @@
 #include "simulate/core/check.h"
 
 namespace flocklift::internal {
-namespace {
-
-constexpr int kBand = ArrowSystem::kBand;
-
-// Entry (i, j) of a stored lower band, i - 11 <= j <= i.
-std::size_t At(int i, int j) { return static_cast<std::size_t>(i) * kBand + (j - i + kBand - 1); }
-
-}  // namespace
 
 ArrowSystem::ArrowSystem(int n, int own, int shared)
     : n_(n),
@@ -122,58 +114,13 @@ void ArrowSystem::Meet(int border, int first) {
   left_[border] = std::max(left_[border], std::min(first + kBand, n_));
 }
 
-void ArrowSystem::GatherBorder() {
-  pieces_.clear();
-  for (int first = 0; first < n_; first += kColumns) {
-    Piece& piece = pieces_.emplace_back();
-    piece.first = first;
-    const int columns = std::min(kColumns, n_ - first);
-    for (int c = 0; c < k_; ++c) {
-      if (met_[c] < first + columns && left_[c] > first) piece.border.push_back(c);
-    }
-    piece.values = border_(piece.border, Eigen::seqN(first, columns));
-  }
-}
-
 double ArrowSystem::Diagonal(int i) const { return band_[At(i, i)]; }
-
-template <typename Visit>
-void ArrowSystem::ForEachBlock(const Visit& visit) const {
-  int met = 0;
-  for (int first = 0; first < n_; first += kColumns) {
-    const int columns = std::min(kColumns, n_ - first);
-    while (met < k_ && met_[order_[met]] < first + columns) ++met;
-    visit(first, columns, met);
-  }
-}
 
 void ArrowSystem::SortBorder() {
   order_.resize(static_cast<std::size_t>(k_));
   std::iota(order_.begin(), order_.end(), 0);
   std::stable_sort(order_.begin(), order_.end(),
                    [this](int a, int b) { return met_[a] < met_[b]; });
-}
-
-template <int Count>
-Columns<Count> ArrowSystem::ReducedTimes(const Eigen::Ref<const Columns<Count>>& x) const {
-  Columns<Count> sorted = Columns<Count>::Zero(k_, Count), border(k_, Count);
-  ForEachBlock([&](int first, int columns, int met) {
-    sorted.topRows(met).noalias() +=
-        reduced_border_.block(0, first, met, columns) * x.middleRows(first, columns);
-  });
-  for (int c = 0; c < k_; ++c) border.row(order_[c]) = sorted.row(c);
-  return border;
-}
-
-template <int Count>
-void ArrowSystem::SubtractReduced(const Columns<Count>& border,
-                                  Eigen::Ref<Columns<Count>> x) const {
-  Columns<Count> sorted(k_, Count);
-  for (int c = 0; c < k_; ++c) sorted.row(c) = border.row(order_[c]);
-  ForEachBlock([&](int first, int columns, int met) {
-    x.middleRows(first, columns).noalias() -=
-        reduced_border_.block(0, first, met, columns).transpose() * sorted.topRows(met);
-  });
 }
 
 // Column by column, each taken off the rows below it: sums of the same order as row by row, but
@@ -200,14 +147,10 @@ bool ArrowSystem::FactoriseBand(double damping) {
   return true;
 }
 
-bool ArrowSystem::Reduce(double damping, Eigen::MatrixXd* shared_matrix,
-                         Eigen::VectorXd* shared_gradient) {
-  if (!FactoriseBand(damping)) return false;
+void ArrowSystem::ReduceBorder(Eigen::MatrixXd* squares, Eigen::VectorXd* pulls) {
   SortBorder();
   reduced_border_.resize(k_, n_);
   reduced_gradient_ = gradient_.head(n_);
-  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(k_, k_);
-  Eigen::VectorXd pulls = Eigen::VectorXd::Zero(k_);
   int met_before = 0;
   ForEachBlock([&](int first, int columns, int met) {
     const int before = std::max(0, first - kBand + 1);  // columns of the last block, shorter
@@ -226,9 +169,17 @@ bool ArrowSystem::Reduce(double damping, Eigen::MatrixXd* shared_matrix,
       reduced_gradient_[i] *= inverse;
     }
     const auto block = reduced_border_.block(0, first, met, columns);
-    squares.topLeftCorner(met, met).selfadjointView<Eigen::Lower>().rankUpdate(block);
-    pulls.head(met).noalias() += block * reduced_gradient_.segment(first, columns);
+    squares->topLeftCorner(met, met).selfadjointView<Eigen::Lower>().rankUpdate(block);
+    pulls->head(met).noalias() += block * reduced_gradient_.segment(first, columns);
   });
+}
+
+bool ArrowSystem::Reduce(double damping, Eigen::MatrixXd* shared_matrix,
+                         Eigen::VectorXd* shared_gradient) {
+  if (!FactoriseBand(damping)) return false;
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(k_, k_);
+  Eigen::VectorXd pulls = Eigen::VectorXd::Zero(k_);
+  ReduceBorder(&squares, &pulls);
   Eigen::MatrixXd schur = corner_;
   for (int a = 0; a < own_; ++a) schur(a, a) *= 1 + damping;
   Eigen::VectorXd gradient = gradient_.tail(k_);
@@ -271,152 +222,6 @@ Eigen::VectorXd ArrowSystem::BackSubstitute(const Eigen::VectorXd& shared_step) 
   SolveBandInPlace(step.head(n_));
   step.tail(own_) = own;
   return step;
-}
-
-template <int Count>
-void ArrowSystem::Multiply(const Eigen::Ref<const Columns<Count>>& x, const Columns<Count>& shared,
-                           Eigen::Ref<Columns<Count>> y, Columns<Count>* out) const {
-  FLOCKLIFT_DCHECK(!pieces_.empty());
-  Columns<Count> border(k_, Count);
-  border << x.bottomRows(own_), shared;
-  for (int i = 0; i < n_; ++i) {
-    const int low = std::max(0, i - kBand + 1);
-    const double* row = &band_[At(i, low)] - low;
-    Eigen::Matrix<double, 1, Count> sum = row[i] * x.row(i);
-    for (int j = low; j < i; ++j) {
-      sum += row[j] * x.row(j);
-      y.row(j) += row[j] * x.row(i);
-    }
-    y.row(i) += sum;
-  }
-  Columns<Count> ends = corner_ * border;
-  for (const Piece& piece : pieces_) {
-    const Eigen::Index columns = piece.values.cols();
-    const Columns<Count> met = border(piece.border, Eigen::all);
-    y.middleRows(piece.first, columns).noalias() += piece.values.transpose() * met;
-    ends(piece.border, Eigen::all) += piece.values * x.middleRows(piece.first, columns);
-  }
-  y.bottomRows(own_) += ends.topRows(own_);
-  *out += ends.bottomRows(k_ - own_);
-}
-
-template <int Count>
-void ArrowSystem::Eliminate(Eigen::Ref<Columns<Count>> x, Columns<Count>* shared) const {
-  for (int i = 0; i < n_; ++i) {
-    const int low = std::max(0, i - kBand + 1);
-    const double* row = &factor_[At(i, low)] - low;
-    Eigen::Matrix<double, 1, Count> sum = x.row(i);
-    for (int j = low; j < i; ++j) sum -= row[j] * x.row(j);
-    x.row(i) = sum / row[i];
-  }
-  const Columns<Count> ends = ReducedTimes<Count>(x.topRows(n_));
-  x.bottomRows(own_) -= ends.topRows(own_);
-  own_factor_.triangularView<Eigen::Lower>().solveInPlace(x.bottomRows(own_));
-  own_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(x.bottomRows(own_));
-  *shared -= ends.bottomRows(k_ - own_);
-  shared->noalias() -= own_to_shared_.transpose() * x.bottomRows(own_);
-}
-
-template <int Count>
-void ArrowSystem::Substitute(const Columns<Count>& shared, Eigen::Ref<Columns<Count>> x) const {
-  Columns<Count> border(k_, Count);
-  border.topRows(own_) = own_to_shared_ * shared;
-  own_factor_.triangularView<Eigen::Lower>().solveInPlace(border.topRows(own_));
-  own_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(border.topRows(own_));
-  x.bottomRows(own_) -= border.topRows(own_);
-  border.topRows(own_) = x.bottomRows(own_);
-  border.bottomRows(k_ - own_) = shared;
-  SubtractReduced<Count>(border, x.topRows(n_));
-  for (int i = n_ - 1; i >= 0; --i) {
-    const int low = std::max(0, i - kBand + 1);
-    const double* row = &factor_[At(i, low)] - low;
-    x.row(i) /= row[i];
-    for (int j = low; j < i; ++j) x.row(j) -= row[j] * x.row(i);
-  }
-}
-
-template void ArrowSystem::Multiply<1>(const Eigen::Ref<const Columns<1>>&, const Columns<1>&,
-                                       Eigen::Ref<Columns<1>>, Columns<1>*) const;
-template void ArrowSystem::Multiply<8>(const Eigen::Ref<const Columns<8>>&, const Columns<8>&,
-                                       Eigen::Ref<Columns<8>>, Columns<8>*) const;
-template void ArrowSystem::Eliminate<1>(Eigen::Ref<Columns<1>>, Columns<1>*) const;
-template void ArrowSystem::Eliminate<8>(Eigen::Ref<Columns<8>>, Columns<8>*) const;
-template void ArrowSystem::Substitute<1>(const Columns<1>&, Eigen::Ref<Columns<1>>) const;
-template void ArrowSystem::Substitute<8>(const Columns<8>&, Eigen::Ref<Columns<8>>) const;
-
-ArrowSystem::Posterior ArrowSystem::Covariance(const Eigen::MatrixXd& shared_covariance) const {
-  Posterior posterior;
-  const int shared = k_ - own_;
-  Eigen::MatrixXd own_inverse = Eigen::MatrixXd::Identity(own_, own_);
-  own_factor_.triangularView<Eigen::Lower>().solveInPlace(own_inverse);
-  own_inverse = own_inverse.transpose() * own_inverse;
-  const Eigen::MatrixXd across = own_inverse * own_to_shared_;
-  posterior.border.resize(k_, k_);
-  posterior.border.topLeftCorner(own_, own_) =
-      own_inverse + across * shared_covariance * across.transpose();
-  posterior.border.topRightCorner(own_, shared) = -across * shared_covariance;
-  posterior.border.bottomLeftCorner(shared, own_) =
-      posterior.border.topRightCorner(own_, shared).transpose();
-  posterior.border.bottomRightCorner(shared, shared) = shared_covariance;
-
-  posterior.path_to_border.setZero(n_, k_);
-  ForEachBlock([&](int first, int columns, int met) {
-    for (int c = 0; c < met; ++c) {
-      posterior.path_to_border.col(order_[c]).segment(first, columns) =
-          -reduced_border_.row(c).segment(first, columns).transpose();
-    }
-  });
-  for (int c = 0; c < k_; ++c) SolveBandInPlace(posterior.path_to_border.col(c));
-
-  // Z = A^-1 inside the band, from the last row up: Z L = L^-T.
-  posterior.band.assign(band_.size(), 0.0);
-  std::vector<double>& z = posterior.band;
-  for (int j = n_ - 1; j >= 0; --j) {
-    const int high = std::min(n_ - 1, j + kBand - 1);
-    const double inverse = 1 / factor_[At(j, j)];
-    for (int i = high; i >= j; --i) {
-      double sum = i == j ? inverse : 0.0;
-      for (int m = j + 1; m <= high; ++m) {
-        const double entry = m >= i ? z[At(m, i)] : z[At(i, m)];
-        sum -= entry * factor_[At(m, j)];
-      }
-      z[At(i, j)] = sum * inverse;
-    }
-  }
-  return posterior;
-}
-
-double ArrowSystem::VarianceOf(const Posterior& posterior, const ResidualRow& row) const {
-  const int count = std::min(kBand, n_ - row.first);
-  double variance = 0;
-  Eigen::VectorXd border = Eigen::VectorXd::Zero(k_);
-  for (int a = 0; a < count; ++a) {
-    if (row.path[a] == 0) continue;
-    const int i = row.first + a;
-    border += row.path[a] * posterior.path_to_border.row(i).transpose();
-    for (int b = 0; b <= a; ++b) {
-      const double entry = posterior.band[At(i, row.first + b)];
-      variance += (b == a ? 1 : 2) * row.path[a] * row.path[b] * entry;
-    }
-  }
-  for (int c = 0; c < row.border_count; ++c) border[row.border[c].first] += row.border[c].second;
-  return variance + border.dot(posterior.border * border);
-}
-
-std::pair<double, Eigen::VectorXd> ArrowSystem::Functional(const Eigen::VectorXd& weights) const {
-  // L^-1 w, then everything as for a right-hand side.
-  Eigen::VectorXd y = weights;
-  for (int i = 0; i < n_; ++i) {
-    for (int j = std::max(0, i - kBand + 1); j < i; ++j) y[i] -= factor_[At(i, j)] * y[j];
-    y[i] /= factor_[At(i, i)];
-  }
-  double variance = y.squaredNorm();
-  const Eigen::VectorXd border = -ReducedTimes<1>(y);
-  Eigen::VectorXd own = border.head(own_);
-  own_factor_.triangularView<Eigen::Lower>().solveInPlace(own);
-  variance += own.squaredNorm();
-  own_factor_.transpose().triangularView<Eigen::Upper>().solveInPlace(own);
-  return {variance, border.tail(k_ - own_) - own_to_shared_.transpose() * own};
 }
 
 }  // namespace flocklift::internal

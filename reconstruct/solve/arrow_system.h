@@ -6,15 +6,18 @@
 // first, then the flock's:
 //   [ A    U ] [dx]   [ -g_x ]      A: n x n, half-bandwidth 11 (four control points)
 //   [ U^T  D ] [db] = [ -g_b ]      U: n x k,  D: k x k
-// Eliminating the band costs O(n (12^2 + 12 k)): linear in the length of the path. The flock's part
-// is the sum of all paths' Schur complements. (Golub and Van Loan, Matrix Computations, 4.3.5; the
-// selected inverse is the recursion of Takahashi, Fagan and Chin, 1973.)
+// Eliminating the band costs O(n (12^2 + 12 k + k^2)) at most, linear in the length of the path:
+// what the flock has in common changes over time, and unknowns that a path has not met yet cost
+// nothing. The flock's part is the sum of all paths' Schur complements. (Golub and Van Loan, Matrix
+// Computations, 4.3.5; the selected inverse is the recursion of Takahashi, Fagan and Chin, 1973.)
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_ARROW_SYSTEM_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_ARROW_SYSTEM_H_
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -127,15 +130,29 @@ class ArrowSystem {
   std::pair<double, Eigen::VectorXd> Functional(const Eigen::VectorXd& weights) const;
 
  private:
+  // Place of entry (i, j) of a stored lower band, i - 11 <= j <= i.
+  static std::size_t At(int i, int j) {
+    return static_cast<std::size_t>(i) * kBand + static_cast<std::size_t>(j - i + kBand - 1);
+  }
   bool FactoriseBand(double damping);
+  void Meet(int border, int first);  // the 12 unknowns of the path from `first` on
   // A border unknown that the path meets late has no share of what is eliminated before. Sorted by
   // when they are met, those met so far come first: calls visit(i, columns, unknowns) for `columns`
   // of the path from i on and the number of unknowns met by their end.
+  void SortBorder();
   static constexpr int kColumns = 48;
   template <typename Visit>
-  void ForEachBlock(const Visit& visit) const;
-  void Meet(int border, int first);  // the 12 unknowns of the path from `first` on
-  void SortBorder();
+  void ForEachBlock(const Visit& visit) const {
+    int met = 0;
+    for (int first = 0; first < n_; first += kColumns) {
+      const int columns = std::min(kColumns, n_ - first);
+      while (met < k_ && met_[order_[met]] < first + columns) ++met;
+      visit(first, columns, met);
+    }
+  }
+  // L^-1 U and L^-1 g; and, sorted, of both what is taken off the border's: the former's square and
+  // its product with the latter.
+  void ReduceBorder(Eigen::MatrixXd* squares, Eigen::VectorXd* pulls);
   // L^-1 U, transposed, times the path's unknowns; and taken off x, times the border's.
   template <int Count>
   Columns<Count> ReducedTimes(const Eigen::Ref<const Columns<Count>>& x) const;
