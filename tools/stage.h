@@ -42,8 +42,9 @@ class Stage {
   // The stage's quality figures.
   nlohmann::ordered_json& figures() { return figures_; }
 
-  // True when the summary in the out folder is of an equal command, version, options and inputs,
-  // and the outputs are still as it left them: then the work can be skipped (`common.reuse` only).
+  // True when the summary in the out folder is of an equal command, version, build, options and
+  // inputs, and the outputs are still as it left them: then the work can be skipped
+  // (`common.reuse` only).
   bool IsUpToDate() const;
 
   // Ends the phase before and starts one; the result reports its progress in `unit`s.

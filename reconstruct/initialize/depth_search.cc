@@ -20,12 +20,14 @@ constexpr int kSlopes = 2 * kMaxSlope + 1;
 constexpr int kMaxLevels = 400;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// Half the square, linear from 3 on; of a root.
 constexpr double kLimit = 3;
+
+// Half the square, linear from the limit on.
 double Robust(double r) {
   const double a = std::abs(r);
   return a <= kLimit ? 0.5 * a * a : kLimit * (a - 0.5 * kLimit);
 }
+// The same of the root of a square.
 double RobustOfRoot(double square) {
   return square <= kLimit * kLimit ? 0.5 * square : kLimit * (std::sqrt(square) - 0.5 * kLimit);
 }
@@ -119,11 +121,12 @@ struct WaysIn {
   static constexpr int kLanes = kSlopes + 1;  // even, for vector instructions
   std::array<double, kLanes> cost, x{}, y{}, z{}, square;
 
-  // Which one goes on best by `out`, and at what cost; the bend counts `factor` squared.
-  std::pair<int, double> Best(int straight_on, const Vec3d& out, double factor2) {
+  // Which one goes on best by `out`, and at what cost; `bend_weight` is of the squared change of
+  // the way, `straight_on` the one of the same slope.
+  std::pair<int, double> Best(int straight_on, const Vec3d& out, double bend_weight) {
     for (int r = 0; r < kLanes; ++r) {
       const double dx = out.x - x[r], dy = out.y - y[r], dz = out.z - z[r];
-      square[r] = factor2 * (dx * dx + dy * dy + dz * dz);
+      square[r] = bend_weight * (dx * dx + dy * dy + dz * dz);
     }
     // Straight on is usually best, and spares looking at most others.
     int chosen = straight_on;

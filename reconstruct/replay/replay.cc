@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -23,13 +24,15 @@
 namespace flocklift {
 namespace {
 
-// Where most is to be compared with: the first frame whose animals are seen in most frames from
-// there on, all together. (Most animals at once may be there just before the end.)
-int FrameToStartAt(const Trajectories& trajectories) {
+// Where most is to be compared with: the first frame whose animals are seen in most of the frames
+// that are flown from there on, all together. (Most at once may be there just before the end.)
+int FrameToStartAt(const Trajectories& trajectories, std::size_t flown) {
   std::map<int, std::size_t> ahead;
   for (const Trajectory& trajectory : trajectories.trajectories) {
     std::size_t left = trajectory.points.size();
-    for (const TrajectoryPoint& point : trajectory.points) ahead[point.frame] += left--;
+    for (const TrajectoryPoint& point : trajectory.points) {
+      ahead[point.frame] += std::min(left--, flown);
+    }
   }
   const auto best = std::max_element(
       ahead.begin(), ahead.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -178,15 +181,20 @@ ReplayResult Replay(const ReplayOptions& options, const Parameters& parameters,
   Check(reconstruction.has_velocity, "a replay starts from velocities: fill them first");
   CheckObstacles(options, parameters.model, obstacles);
   ReplayResult result;
-  result.start_frame = options.frame > 0 ? options.frame : FrameToStartAt(reconstruction);
+  const int asked = static_cast<int>(std::lround(options.duration * fps));
+  result.start_frame =
+      options.frame > 0
+          ? options.frame
+          : FrameToStartAt(reconstruction, asked > 0 ? static_cast<std::size_t>(asked) + 1
+                                                     : std::numeric_limits<std::size_t>::max());
   const Departures departures(scene, parameters, reconstruction, fps, options.substeps);
   const int substeps = departures.substeps();
   const bool from_scene_start = DepartsFromSceneStart(parameters.model);
   Check(!from_scene_start || (options.alpha == 1 && options.count == 0),
         "tetrahedra that morph fly as their scene has them: leave out --alpha and --count");
   ReplayStart start = MakeStart(reconstruction, result.start_frame, options.count, seed);
-  const int frames = options.duration > 0 ? static_cast<int>(std::lround(options.duration * fps))
-                                          : SpanOf(reconstruction).last - result.start_frame;
+  const int frames =
+      options.duration > 0 ? asked : SpanOf(reconstruction).last - result.start_frame;
   const double time = (result.start_frame - 1) / fps;
   std::unique_ptr<ReplayFlight> flight, perturbed, noiseless;
   if (from_scene_start) {

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "simulate/core/check.h"
-
 namespace flocklift::internal {
 
 ArrowSystem::ArrowSystem(int n, int own, int shared)
@@ -153,7 +151,8 @@ void ArrowSystem::ReduceBorder(Eigen::MatrixXd* squares, Eigen::VectorXd* pulls)
   reduced_gradient_ = gradient_.head(n_);
   int met_before = 0;
   ForEachBlock([&](int first, int columns, int met) {
-    const int before = std::max(0, first - kBand + 1);  // columns of the last block, shorter
+    // What the block before had not met yet is zero there.
+    const int before = std::max(0, first - kBand + 1);
     reduced_border_.block(met_before, before, met - met_before, first - before).setZero();
     met_before = met;
     for (int i = first; i < first + columns; ++i) {
@@ -168,6 +167,7 @@ void ArrowSystem::ReduceBorder(Eigen::MatrixXd* squares, Eigen::VectorXd* pulls)
       column *= inverse;
       reduced_gradient_[i] *= inverse;
     }
+    if (met == 0) return;
     const auto block = reduced_border_.block(0, first, met, columns);
     squares->topLeftCorner(met, met).selfadjointView<Eigen::Lower>().rankUpdate(block);
     pulls->head(met).noalias() += block * reduced_gradient_.segment(first, columns);

@@ -63,6 +63,7 @@ class ArrowSystem {
   double Diagonal(int i) const;                                  // of the path's unknowns
 
   void SetZero();
+  // Until the next SetZero or Add what Reduce and GatherBorder made can be used.
   // A system that asks for no step at all and says nothing of the flock.
   void SetIdentity();
   // Adds weight * (J^T J) and the gradient weight * J^T r. Entries of `path` past n are ignored.
@@ -136,11 +137,11 @@ class ArrowSystem {
   }
   bool FactoriseBand(double damping);
   void Meet(int border, int first);  // the 12 unknowns of the path from `first` on
-  // A border unknown that the path meets late has no share of what is eliminated before. Sorted by
-  // when they are met, those met so far come first: calls visit(i, columns, unknowns) for `columns`
-  // of the path from i on and the number of unknowns met by their end.
-  void SortBorder();
-  static constexpr int kColumns = 48;
+  void SortBorder();                 // by when unknowns are met
+  // A border unknown that the path meets late has no share of what is eliminated before. Sorted,
+  // those met so far come first: calls visit(i, columns, unknowns) for `columns` of the path from i
+  // on and the number of unknowns met by their end.
+  static constexpr int kColumns = 48;  // of a block
   template <typename Visit>
   void ForEachBlock(const Visit& visit) const {
     int met = 0;

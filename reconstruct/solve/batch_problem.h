@@ -101,7 +101,8 @@ struct BatchModel {
   }
 };
 
-// Hands every whitened residual of one bird to `take`, with derivatives when asked.
+// Hands every whitened residual of one bird to `take`, with derivatives when asked; else nothing of
+// a row but its residual counts.
 void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                 bool derivatives, const RowSink& take);
 

@@ -11,6 +11,7 @@
 
 #include "reconstruct/solve/coupled_flock.h"
 #include "reconstruct/solve/coupled_point.h"
+#include "simulate/core/check.h"
 
 namespace flocklift::internal {
 namespace {
@@ -111,12 +112,14 @@ ArrowSystem::Rows CoupledFlock::RowsOf(std::size_t bird, int knot,
   rows.own = kOwnLogSpeed;
   rows.by_own.setZero();
   auto& [scalars, targets] = rows.by_shared;
+  static_assert(kForceScalars <= ArrowSystem::Rows::Run::kMost);
   scalars = {model_.shared(), Eigen::Matrix<double, 3, kForceScalars>::Zero()};
   const auto target_at = [&](int back) {
     return forces.ShareAt((birds_[bird].first_knot + knot - back) * model_.knot_interval);
   };
   const int first_target = target_at(first ? 0 : 1).knot, last_target = target_at(0).knot;
   targets.first = model_.shared() + kForceScalars + 3 * first_target;
+  FLOCKLIFT_DCHECK(3 * (last_target + 2 - first_target) <= ArrowSystem::Rows::Run::kMost);
   targets.by.setZero(3, 3 * (last_target + 2 - first_target));
   for (int l = 0; l < (first ? 1 : 2); ++l) {
     const double share = (l == 0 ? 1 : -whitening.rho) * whitening.At(knot);

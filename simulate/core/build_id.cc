@@ -21,6 +21,8 @@ std::string IdIn(const char* note, const char* end) {
   while (end - note >= static_cast<std::ptrdiff_t>(sizeof(ElfW(Nhdr)))) {
     const auto* header = reinterpret_cast<const ElfW(Nhdr)*>(note);
     const char* name = note + sizeof *header;
+    const std::size_t left = static_cast<std::size_t>(end - name);
+    if (padded(header->n_namesz) + padded(header->n_descsz) > left) return {};
     const char* bytes = name + padded(header->n_namesz);
     if (header->n_type == NT_GNU_BUILD_ID && std::string_view(name, header->n_namesz) == kOwner) {
       std::string id;

@@ -101,6 +101,7 @@ TEST_F(StageTest, SummaryHasTheKeysOfTheContract) {
   EXPECT_EQ(summary.at("figures").at("bytes"), 4);
   EXPECT_TRUE(summary.at("warnings").empty());
   EXPECT_FALSE(summary.at("version").get<std::string>().empty());
+  EXPECT_FALSE(summary.at("build").get<std::string>().empty());
 }
 
 TEST_F(StageTest, AMissingInputIsAnInputError) {

@@ -99,6 +99,8 @@ TEST(Replay, StartsWhereMostIsStillToCome) {
   flock.trajectories.push_back(late);
   const ModelSpec boids{.name = "boids", .parameters = {}, .where = {}, .where_of = {}};
   EXPECT_EQ(Replay({}, By(boids), flock, kFps, 1, 1).start_frame, 3);
+  const ReplayOptions one_frame{.duration = 1 / kFps};
+  EXPECT_EQ(Replay(one_frame, By(boids), flock, kFps, 1, 1).start_frame, 18);
   std::erase_if(flock.trajectories[0].points, [](const auto& p) { return p.frame < 18; });
   std::erase_if(flock.trajectories[1].points, [](const auto& p) { return p.frame > 5; });
   EXPECT_EQ(Replay({}, By(boids), flock, kFps, 1, 1).start_frame, 18);

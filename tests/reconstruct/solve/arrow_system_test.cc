@@ -203,6 +203,45 @@ TEST(ArrowSystem, FunctionalIsThatOfTheDenseSystem) {
   EXPECT_NEAR(whole, expected, 1e-9 * expected);
 }
 
+// A path that shares nothing, in a system that has held another one.
+TEST(ArrowSystem, IsUsedAgainAndNeedsNoBorder) {
+  ArrowSystem alone(kUnknowns, 0, 0);
+  Both twice = RandomSystem();
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(kShared, kShared), none(0, 0);
+  Eigen::VectorXd reduced = Eigen::VectorXd::Zero(kShared), nothing(0);
+  ASSERT_TRUE(twice.arrow.Reduce(0, &matrix, &reduced));
+  Both other;
+  twice.arrow.SetZero();
+  Rng rng(3);
+  for (int k = 0; k < 300; ++k) {
+    ResidualRow row;
+    row.first = 3 * static_cast<int>(rng.Below(kUnknowns / 3));
+    row.residual = rng.Normal();
+    for (double& d : row.path) d = rng.Normal();
+    alone.Add(row);
+    // Now the path meets late what it met first, and the other way round.
+    const int border = static_cast<int>(rng.Below(kOwn + kShared));
+    if (Meets(kUnknowns - row.first, border)) row.AddBorder(border, rng.Normal());
+    other.Add(row, 1);
+    twice.arrow.Add(row);
+  }
+  const Eigen::MatrixXd normal = other.jacobian.transpose() * other.jacobian;
+  const Eigen::VectorXd dense = -normal.ldlt().solve(other.jacobian.transpose() * other.residual);
+  matrix.setZero();
+  reduced.setZero();
+  ASSERT_TRUE(twice.arrow.Reduce(0, &matrix, &reduced));
+  const Eigen::VectorXd shared = -matrix.llt().solve(reduced);
+  EXPECT_LT((shared - dense.tail(kShared)).norm(), 1e-9 * dense.norm());
+  const Eigen::VectorXd step = twice.arrow.BackSubstitute(shared);
+  EXPECT_LT((step - dense.head(kUnknowns + kOwn)).norm(), 1e-9 * dense.norm());
+
+  const Eigen::MatrixXd path = other.jacobian.leftCols(kUnknowns);
+  ASSERT_TRUE(alone.Reduce(0, &none, &nothing));
+  const Eigen::VectorXd solved =
+      -(path.transpose() * path).ldlt().solve(path.transpose() * other.residual);
+  EXPECT_LT((alone.BackSubstitute(nothing) - solved).norm(), 1e-9 * solved.norm());
+}
+
 TEST(ArrowSystem, SingularIsSaid) {
   ArrowSystem empty(kUnknowns, kOwn, kShared);
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(kShared, kShared);

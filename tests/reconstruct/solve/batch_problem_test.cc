@@ -77,6 +77,9 @@ TEST_F(BatchProblemTest, EveryDerivativeMatchesNumericDifferences) {
   EXPECT_EQ(terms.size(), kTermCount - 1u);  // the common acceleration is the flock's
   const std::vector<double> residuals = Residuals();
   ASSERT_EQ(rows.size(), residuals.size());
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    EXPECT_NEAR(rows[r].residual, residuals[r], 1e-12 * (1 + std::abs(residuals[r])));
+  }
 
   const auto check = [&](double* unknown, const auto& derivative_of) {
     constexpr double kStep = 1e-6;

@@ -20,9 +20,13 @@
 namespace flocklift {
 namespace {
 
+// Longer than the target stays between two of its knots.
+constexpr int kLong = 150;
+static_assert(kLong / kFps > internal::kTargetKnotTime);
+
 // Gradient of the whole coupled cost against differences, in random directions.
 TEST(CoupledFlock, GradientIsThatOfDifferences) {
-  WithFlock({.count = 5, .frames = 40}, {.max_iterations = 3},
+  WithFlock({.count = 5, .frames = kLong}, {.max_iterations = 3},
             [](const internal::WindowToRefine& window, internal::CoupledFlock& flock) {
               flock.noise = {.sd = 2, .time = 0.7};
               Rng rng(4);
@@ -68,7 +72,7 @@ Eigen::MatrixXd MatrixOf(internal::CoupledFlock* flock) {
 
 // Conjugate gradients against the direct factor of the same matrix.
 TEST(CoupledFlock, SolvesWhatADirectFactorSolves) {
-  WithFlock({.count = 4, .frames = 40}, {},
+  WithFlock({.count = 3, .frames = kLong}, {},
             [](const internal::WindowToRefine&, internal::CoupledFlock& flock) {
               const Eigen::MatrixXd matrix = MatrixOf(&flock);
               EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-9 * matrix.norm());
