@@ -160,7 +160,7 @@ std::vector<double> SearchDepth(const DepthSearchPriors& priors, double interval
   // best[level, slope]: least cost of all up to step k + 1, with level the one at step k.
   const std::size_t states = static_cast<std::size_t>(levels) * kSlopes;
   std::vector<double> best(states, kNever), next(states);
-  std::vector<std::int8_t> came_from(states * static_cast<std::size_t>(count - 1));
+  std::vector<std::uint8_t> came_from(states * static_cast<std::size_t>(count - 1));
   const auto at = [](int level, int slope) {
     return static_cast<std::size_t>(level) * kSlopes + static_cast<std::size_t>(slope + kMaxSlope);
   };
@@ -177,12 +177,12 @@ std::vector<double> SearchDepth(const DepthSearchPriors& priors, double interval
     here = std::move(after);
     after = grid.LayerOf(k + 1);
     std::fill(next.begin(), next.end(), kNever);
-    std::int8_t* from = &came_from[static_cast<std::size_t>(k) * states];
+    std::uint8_t* from = &came_from[static_cast<std::size_t>(k) * states];
     for (int i = 0; i < levels; ++i) {  // level at step k
       ways.cost.fill(kNever);
       for (int s = -grid.High(i); s <= -grid.Low(i); ++s) {
         const Vec3d in = here.point[i] - before.point[i - s];
-        const std::size_t r = static_cast<std::size_t>(s + kMaxSlope);
+        const int r = s + kMaxSlope;
         ways.cost[r] = best[at(i - s, s)];
         ways.x[r] = in.x;
         ways.y[r] = in.y;
@@ -194,7 +194,7 @@ std::vector<double> SearchDepth(const DepthSearchPriors& priors, double interval
         const auto [chosen, least] = ways.Best(s + kMaxSlope, out, factor * factor);
         if (least == kNever) continue;
         next[at(i, s)] = least + after.cost[i + s] + grid.OfMotion(out);
-        from[at(i, s)] = static_cast<std::int8_t>(chosen);
+        from[at(i, s)] = static_cast<std::uint8_t>(chosen);
       }
     }
     best.swap(next);

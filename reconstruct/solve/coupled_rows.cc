@@ -119,8 +119,9 @@ ArrowSystem::Rows CoupledFlock::RowsOf(std::size_t bird, int knot,
   };
   const int first_target = target_at(first ? 0 : 1).knot, last_target = target_at(0).knot;
   targets.first = model_.shared() + kForceScalars + 3 * first_target;
-  FLOCKLIFT_DCHECK(3 * (last_target + 2 - first_target) <= ArrowSystem::Rows::Run::kMost);
-  targets.by.setZero(3, 3 * (last_target + 2 - first_target));
+  const int width = 3 * (last_target + 2 - first_target);
+  FLOCKLIFT_DCHECK(width <= ArrowSystem::Rows::Run::kMost);
+  targets.by.setZero(3, width);
   for (int l = 0; l < (first ? 1 : 2); ++l) {
     const double share = (l == 0 ? 1 : -whitening.rho) * whitening.At(knot);
     const Line& line = lines_[LineOf(bird, knot - l)];

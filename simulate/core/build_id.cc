@@ -41,7 +41,9 @@ int TakeProgram(dl_phdr_info* program, std::size_t /*size*/, void* id) {
   for (int k = 0; k < program->dlpi_phnum; ++k) {
     const ElfW(Phdr)& part = program->dlpi_phdr[k];
     if (part.p_type != PT_NOTE) continue;
-    const char* note = reinterpret_cast<const char*>(program->dlpi_addr + part.p_vaddr);
+    // The loader tells addresses as numbers.
+    const auto* note = reinterpret_cast<const char*>(  // NOLINT(performance-no-int-to-ptr)
+        program->dlpi_addr + part.p_vaddr);
     std::string found = IdIn(note, note + part.p_memsz);
     if (found.empty()) continue;
     *static_cast<std::string*>(id) = std::move(found);
