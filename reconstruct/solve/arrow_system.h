@@ -63,7 +63,6 @@ class ArrowSystem {
   double Diagonal(int i) const;                                  // of the path's unknowns
 
   void SetZero();
-  // Until the next SetZero or Add what Reduce and GatherBorder made can be used.
   // A system that asks for no step at all and says nothing of the flock.
   void SetIdentity();
   // Adds weight * (J^T J) and the gradient weight * J^T r. Entries of `path` past n are ignored.
@@ -89,6 +88,8 @@ class ArrowSystem {
   using Pull = Eigen::Matrix<double, kBand, 1>;
   void Add(int first, const Square& square, const Pull& pull);
 
+  // What Reduce and GatherBorder make holds until the next SetZero or Add.
+  //
   // Factorises the band and the path's own scalars, and gives the flock's share: matrix += S,
   // gradient += g of the reduced system. False when the system is not positive definite.
   // Damping multiplies the diagonal by 1 + damping (Marquardt), but adds damping * kDepthMetric to
