@@ -15,6 +15,10 @@
 // wings stay level. The acceleration a is that of an earlier solution and stays fixed: otherwise
 // the size of a bird would say how strongly it turns, in m/s^2, a scale that is not to be trusted.
 // Where gravity is not known the wings are anywhere around g, and s and u count by their mean.
+// A bird that beats its wings is no ellipsoid, though, and a box around it even less: from a
+// quarter its wings and its trunk reach equally far, and the box is smaller than from the side or
+// from the front. Where gravity is known, log sqrt(Q) is corrected by what the image of a body
+// (body_image.h) differs from the usual Q, so far as the images are those of bodies.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_SIZE_H_
 #define FLOCKLIFT_RECONSTRUCT_COST_FUNCTIONS_SIZE_H_
@@ -22,19 +26,26 @@
 #include <cmath>
 #include <optional>
 
+#include "reconstruct/cost_functions/body_image.h"
 #include "reconstruct/cost_functions/path.h"
 
 namespace flocklift {
 
+// Squared extents of a bird over its wingspan squared: gliding, wings 1, trunk 1/4, up next to
+// nothing; beating +-50 degrees, wings 0.69 and up 0.08 in the mean. As proportions to the wings.
+inline constexpr double kUsualLogTrunk = -1.2, kUsualLogUp = -2.2;
+
 struct SizeError {
   static constexpr int kSize = 1;
-  double rate = 1;                 // knots per second
-  double softening = 1e-3;         // speed over depth below which a heading means nothing [1/s]
-  double log_size = 0;             // of the angular size
-  double log_wingspan = 0;         // of the flock's mean [log m]
-  std::optional<Vec3d> up_in_cam;  // unit vector, where gravity is known
-  Vec3d curve{};                   // a / 9.81 m/s^2, camera frame
-  CameraMotion camera = {};        // at the knot
+  double rate = 1;                  // knots per second
+  double softening = 1e-3;          // speed over depth below which a heading means nothing [1/s]
+  double log_size = 0;              // of the angular size
+  double log_wingspan = 0;          // of the flock's mean [log m]
+  std::optional<Vec3d> up_in_cam;   // unit vector, where gravity is known
+  Vec3d curve{};                    // a / 9.81 m/s^2, camera frame
+  CameraMotion camera = {};         // at the knot
+  const BodyImage* body = nullptr;  // for the correction, if any
+  double body_share = 0;            // how much it counts, 0 to 1
 
   // c: control points k-1 .. k+1, each (X, Y, L); log_trunk and log_up are logs of proportions.
   template <typename T>
@@ -48,6 +59,7 @@ struct SizeError {
           const T& lean, T* error) const {
     using std::exp;
     using std::log;
+    using std::sqrt;
     const Vec3<T> w = VelocityOverDepth(q, camera);
     const T speed2 = Dot(w, w) + softening * softening;
     const auto seen = [&q](const Vec3<T>& a) {  // |P a|^2
@@ -58,19 +70,31 @@ struct SizeError {
     const T whole = 2.0 + q.x * q.x + q.y * q.y;  // |P s|^2 + |P g|^2 + |P u|^2
     const T along = seen(w) / speed2;
     T across = 0.5 * (whole - along);
+    T correction(0.0);
+    const auto extent = [&](const T& trunk, const T& up) {
+      return 1.5 * (across + trunk * along + up * (whole - along - across)) / (1.0 + trunk + up);
+    };
     if (up_in_cam) {
       const Vec3<T> lift = {up_in_cam->x + lean * curve.x, up_in_cam->y + lean * curve.y,
                             up_in_cam->z + lean * curve.z};
       const Vec3<T> side = Cross(w, lift);
       // Of a heading within some 10 degrees of the lift the side is less and less certain.
       const T certain = 0.03 * speed2 * Dot(lift, lift);
-      across = (seen(side) + certain * across) / (Dot(side, side) + certain);
+      const T side2 = Dot(side, side) + certain;
+      across = (seen(side) + certain * across) / side2;
+      if (body != nullptr && body_share > 0) {
+        const Vec3<T> g = (1.0 / sqrt(speed2)) * w;
+        const Vec3<T> s = (1.0 / sqrt(side2)) * side;
+        const auto image = [&q](const Vec3<T>& a) {
+          return Vec2<T>{a.x - q.x * a.z, a.y - q.y * a.z};
+        };
+        const T usual = extent(T(std::exp(kUsualLogTrunk)), T(std::exp(kUsualLogUp)));
+        correction =
+            body_share * (body->LogSize(image(g), image(s), image(Cross(s, g))) - 0.5 * log(usual));
+      }
     }
-    const T trunk = exp(log_trunk);
-    const T up = exp(log_up);
-    const T extent =
-        1.5 * (across + trunk * along + up * (whole - along - across)) / (1.0 + trunk + up);
-    error[0] = log_size - (log_wingspan + bias + ratio - q.l + 0.5 * log(extent));
+    error[0] = log_size - (log_wingspan + bias + ratio - q.l +
+                           0.5 * log(extent(exp(log_trunk), exp(log_up))) + correction);
   }
 };
 

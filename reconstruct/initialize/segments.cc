@@ -3,8 +3,10 @@
 
 #include "reconstruct/initialize/segments.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reconstruct/initialize/reference_axes.h"
 #include "simulate/camera/projection.h"
@@ -71,15 +73,49 @@ std::optional<double> MedianBoxOverShape(const Tracks& tracks) {
   return Median(std::move(ratios));
 }
 
-// Pixels per unit of normalised coordinates around a ray: the root of the Jacobian's determinant.
-double LocalFocalLength(const Intrinsics& k, const Vec2d& ray) {
+// The Jacobian of a map of the plane, by differences.
+template <typename Map>
+Eigen::Matrix2d JacobianOf(const Map& map, const Vec2d& at) {
   constexpr double kStep = 1e-5;
-  const Vec2d a = ProjectNormalized(k, Vec2d{ray.x + kStep, ray.y});
-  const Vec2d b = ProjectNormalized(k, Vec2d{ray.x - kStep, ray.y});
-  const Vec2d c = ProjectNormalized(k, Vec2d{ray.x, ray.y + kStep});
-  const Vec2d d = ProjectNormalized(k, Vec2d{ray.x, ray.y - kStep});
-  const double determinant = (a.x - b.x) * (c.y - d.y) - (a.y - b.y) * (c.x - d.x);
-  return std::sqrt(std::max(std::abs(determinant), 1e-30)) / (2 * kStep);
+  const Vec2d a = map(Vec2d{at.x + kStep, at.y}), b = map(Vec2d{at.x - kStep, at.y});
+  const Vec2d c = map(Vec2d{at.x, at.y + kStep}), d = map(Vec2d{at.x, at.y - kStep});
+  Eigen::Matrix2d jacobian;
+  jacobian << a.x - b.x, c.x - d.x, a.y - b.y, c.y - d.y;
+  return jacobian / (2 * kStep);
+}
+
+// Pixels by normalised coordinates around a ray.
+Eigen::Matrix2d PixelByRay(const Intrinsics& k, const Vec2d& ray) {
+  return JacobianOf([&k](const Vec2d& r) { return ProjectNormalized(k, r); }, ray);
+}
+
+// Pixels per unit of normalised coordinates.
+double LocalFocalLength(const Eigen::Matrix2d& pixel_by_ray) {
+  return std::sqrt(std::max(std::abs(pixel_by_ray.determinant()), 1e-30));
+}
+
+Vec2d EllipticityOf(const Eigen::Matrix2d& moments) {
+  const double trace = moments.trace();
+  return {(moments(0, 0) - moments(1, 1)) / trace, 2 * moments(0, 1) / trace};
+}
+
+// Of a shape in the picture, seen in the reference axes.
+std::optional<Vec2d> EllipticityOf(const Shape& shape, const ReferenceAxes& axes, int frame,
+                                   const Vec2d& ray, const Eigen::Matrix2d& pixel_by_ray) {
+  const double angle = shape.angle_deg * std::numbers::pi / 180;
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
+  const Eigen::Vector2d squares(shape.major * shape.major, shape.minor * shape.minor);
+  Eigen::Matrix2d ref_by_pixel = pixel_by_ray.inverse();
+  if (axes.turns()) {
+    const auto turned = [&](const Vec2d& r) {
+      return axes.Turn(frame, r).value_or(ReferenceAxes::Turned{}).ray;
+    };
+    ref_by_pixel = JacobianOf(turned, ray) * ref_by_pixel;
+  }
+  const Eigen::Matrix2d moments =
+      ref_by_pixel * turn * squares.asDiagonal() * turn.transpose() * ref_by_pixel.transpose();
+  if (!(moments.trace() > 0) || !moments.allFinite()) return std::nullopt;
+  return EllipticityOf(moments);
 }
 
 // Position and velocity by a straight line through up to four sightings on one side of a gap.
@@ -203,6 +239,7 @@ void CutJumps(double jump, double doubt, std::vector<Segment>* segments, int* cu
       for (std::size_t k = glitch.first; k < glitch.last; ++k) {
         s[k].ray_sd = std::max(s[k].ray_sd, doubt);
         s[k].log_size.reset();
+        s[k].ellipticity.reset();
       }
     }
     *cuts += static_cast<int>(cut_before.size());
@@ -246,7 +283,8 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
         ++result.unusable;
         continue;
       }
-      const double focal_px = LocalFocalLength(camera.intrinsics, *ray) / turned->magnification;
+      const Eigen::Matrix2d pixel_by_ray = PixelByRay(camera.intrinsics, *ray);
+      const double focal_px = LocalFocalLength(pixel_by_ray) / turned->magnification;
       Sighting sighting;
       sighting.frame = d.frame;
       sighting.time = (d.frame - span.first) / fps;
@@ -264,6 +302,12 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
                 ? Diagonal(d.shape->major, d.shape->minor) * std::exp(*box_over_shape)
                 : box_px;
         if (size_px > 0) sighting.log_size = std::log(size_px / focal_px);
+        if (size_px > 0 && d.shape) {
+          sighting.ellipticity = EllipticityOf(*d.shape, axes, d.frame, *ray, pixel_by_ray);
+        } else if (size_px > 0 && !box_over_shape && !axes.turns()) {
+          sighting.ellipticity = EllipticityOf(
+              Eigen::Vector2d(d.box.width, d.box.height).cwiseAbs2().asDiagonal().toDenseMatrix());
+        }
       }
       segment.sightings.push_back(sighting);
     }

@@ -27,6 +27,9 @@ struct Sighting {
   Vec2d ray;                       // (x/z, y/z)
   double ray_sd = 1;               // of either coordinate
   std::optional<double> log_size;  // log of the angular size; absent on interpolated rows
+  // ((a - c), 2 b) / (a + c) of the second moments (a b; b c) of a shape, reference axes; of a box,
+  // where the camera does not turn, a and c are its squared sides and b is 0. Absent with the size.
+  std::optional<Vec2d> ellipticity;
 };
 
 // What a second camera sees of the animal (second_camera.h).

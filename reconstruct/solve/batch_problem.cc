@@ -186,7 +186,9 @@ void ForEachFeature(const BatchModel& model, const Bird& bird, const Eigen::Vect
                          .log_wingspan = model.log_wingspan,
                          .up_in_cam = model.up_in_cam,
                          .curve = bird.curve[knot],
-                         .camera = camera};
+                         .camera = camera,
+                         .body = &model.body.image,
+                         .body_share = model.body.share};
     take(Term::kSize, 0,
          Evaluate<1, 2, 5>(
              derivatives, c, rate,

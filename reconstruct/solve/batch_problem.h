@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "reconstruct/cost_functions/body_image.h"
 #include "reconstruct/cost_functions/markov.h"
 #include "reconstruct/initialize/segments.h"
 #include "reconstruct/knowledge.h"
@@ -48,6 +49,7 @@ struct Bird {
   std::vector<double> path;  // control points, (X, Y, L) each
   std::array<double, kOwnUnknowns> own{};
   std::vector<std::optional<double>> size;  // mean log angular size around each knot
+  std::vector<std::optional<Vec2d>> form;   // mean ellipticity there (initialize/segments.h)
   std::vector<Vec3d> curve;                 // acceleration over gravity's, at the knots [1]
   double reference_depth = 1;               // scale of accelerations [m]
   double softening = 1e-3;                  // speed over depth that counts as none [1/s]
@@ -69,12 +71,21 @@ struct Bird {
   int unknowns() const { return static_cast<int>(path.size()); }
 };
 
+// What is known of the body of the flock's animals from the forms of their images.
+struct FlockBody {
+  BodyImage image;
+  double length_sd = 0.06, amplitude_sd = 0.25;  // of birds in general
+  double lean = 0;                               // into turns, where it is seen
+  double share = 0;  // how probably sizes follow it (cost_functions/size.h)
+};
+
 // What is known of the flock's scalars from another part of the same sequence.
 struct Belief {
   using Vector = Eigen::Matrix<double, kFlockScalars, 1>;
   using Matrix = Eigen::Matrix<double, kFlockScalars, kFlockScalars>;
   Vector mean = Vector::Zero();
   Matrix information = Matrix::Zero();
+  FlockBody body = {};
 };
 
 // What stays fixed during one solve.
@@ -86,6 +97,7 @@ struct BatchModel {
   std::optional<Vec3d> up_in_cam;
   bool use_size = true, use_climb = true, use_depth = true;
   std::optional<double> log_near, log_far;
+  FlockBody body;
   Uncertain flock_log_speed, size_ratio, log_trunk, log_up, lean, log_depth;
   std::optional<Belief> belief;  // instead of the scalars' priors
   double depth_step_sd = 0.3;    // of the flock's middle over one kDepthKnotTime

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reconstruct/cost_functions/path.h"
+#include "reconstruct/cost_functions/size.h"
 #include "reconstruct/initialize/depth_search.h"
 #include "reconstruct/initialize/triangulation.h"
 
@@ -15,10 +16,8 @@ namespace {
 
 // A prior that says next to nothing, of a logarithm.
 constexpr double kVague = 3;
-// Squared extents of a bird over its wingspan squared: gliding, wings 1, trunk 1/4, up next to
-// nothing; beating +-50 degrees, wings 0.69 and up 0.08 in the mean. As proportions to the wings;
-// second moments of a silhouette weigh body and wings by area and vary more than boxes.
-constexpr Uncertain kTrunkOfBoxes{-1.2, 0.4}, kUpOfBoxes{-2.2, 0.7};
+// Second moments of a silhouette weigh body and wings by area and vary more than boxes.
+constexpr Uncertain kTrunkOfBoxes{kUsualLogTrunk, 0.4}, kUpOfBoxes{kUsualLogUp, 0.7};
 constexpr Uncertain kTrunkOfShapes{-1.2, 0.6}, kUpOfShapes{-1.6, 0.7};
 // Log of (root mean square of a box's diagonal over all views, over the wingspan), until headings
 // are known well enough for box_of_body.h: 0 to -0.1 gliding (the extents above add up to 5/6 of
@@ -77,7 +76,8 @@ void SmoothImagePath(const BatchModel& model, Bird* bird) {
 
 void BinSizes(const BatchModel& model, Bird* bird) {
   std::vector<double> sums(static_cast<std::size_t>(bird->knots));
-  std::vector<int> counts(sums.size());
+  std::vector<Vec2d> forms(sums.size());
+  std::vector<int> counts(sums.size()), form_counts(sums.size());
   for (const Sighting& s : bird->segment->sightings) {
     if (!s.log_size) continue;
     const int knot =
@@ -85,11 +85,17 @@ void BinSizes(const BatchModel& model, Bird* bird) {
                    0, bird->knots - 1);
     sums[knot] += *s.log_size;
     ++counts[knot];
+    if (!s.ellipticity) continue;
+    forms[knot] = {forms[knot].x + s.ellipticity->x, forms[knot].y + s.ellipticity->y};
+    ++form_counts[knot];
   }
   bird->size.assign(sums.size(), std::nullopt);
+  bird->form.assign(sums.size(), std::nullopt);
   bird->curve.assign(sums.size(), Vec3d{});
   for (std::size_t k = 0; k < sums.size(); ++k) {
     if (counts[k] > 0) bird->size[k] = sums[k] / counts[k];
+    const double n = form_counts[k];
+    if (n > 0) bird->form[k] = Vec2d{forms[k].x / n, forms[k].y / n};
   }
 }
 
@@ -216,6 +222,7 @@ BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
   if (belief) {
     // The scale is another part's; here it is only shared.
     model.belief = belief;
+    model.body = belief->body;
     model.flock_log_speed.mean = belief->mean[kFlockLogSpeed];
     model.size_ratio.mean = belief->mean[kSizeRatio];
     model.log_trunk.mean = belief->mean[kLogTrunk];

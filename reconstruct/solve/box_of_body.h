@@ -4,31 +4,22 @@
 // What a wingspan tells of the scale: how large a box a bird fills in the views that a sequence
 // shows. cost_functions/size.h follows the size from view to view, up to one ratio of the flock;
 // a side view shows a body's length where a view from below shows its wings, so what that ratio
-// must be depends on the views. In units of the wingspan a body is
-//   wing tips  (+-cos(f) s + sin(f) u) / 2,  f = A sin(phase),   nose and tail  +-(l / 2) g,
-// with wings s, heading g, up u. A box around the images of the four, W wide and H high, neither
-// below a body's thickness of 0.1, gives
-//   ratio = log sqrt(W^2 + H^2) - log sqrt(Q),
-// in the mean over phases and sightings, Q as in size.h. The usual body is the simulator's: length
-// half the wingspan (core/animal.h; a jackdaw has 33 of 67 to 74 cm), the inner wing raised by 0.8
-// sin(phase) (render/body.h). Other birds differ: by 0.06 in length and 0.25 rad in amplitude (sd),
-// which is assumed, and gives the ratio its sd. Where gravity is not known the whole flock has its
-// up somewhere, anywhere on the sphere: what the ratio differs by from one up to another is unknown
-// to all its birds alike, and no number of them lessens it.
+// must be depends on the views and on the body:
+//   ratio = log (size of a box, body_image.h) - (log size of size.h without a ratio),
+// in the mean over sightings. How well length and amplitude of the wingbeat are known (FlockBody)
+// gives the ratio its sd. Where gravity is not known the whole
+// flock has its up somewhere, anywhere on the sphere: what the ratio differs by from one up to
+// another is unknown to all its birds alike, and no number of them lessens it.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BOX_OF_BODY_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_BOX_OF_BODY_H_
 
 #include <vector>
 
+#include "reconstruct/cost_functions/body_image.h"
 #include "reconstruct/solve/batch_problem.h"
 
 namespace flocklift::internal {
-
-struct BodyShape {
-  double length = 0.5;     // l, over the wingspan
-  double amplitude = 0.8;  // A [rad]
-};
 
 // The ratio of such a body in a flock that flies level about `up`, a unit vector: the model's where
 // it knows one. Of every `stride`-th knot with a size; 0 where there is none.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "reconstruct/solve/coupled_point.h"
+#include "reconstruct/solve/curves.h"
 
 namespace flocklift::internal {
 namespace {
@@ -80,6 +81,7 @@ std::vector<CoupledFlock::Knot> CoupledFlock::States() const {
 void CoupledFlock::Relinearize() {
   const double grown = MeanLogDepth(birds_) - scale_.log_depth;
   for (Bird& bird : birds_) bird.reference_depth = std::exp(MeanLogDepth(bird) - grown);
+  UpdateCurves(model_, &birds_);
   const std::vector<Knot> states = States();
   const double reach = forces.Reach() + kMargin;
   may_hear_.assign(lines_.size(), {});

@@ -57,7 +57,8 @@ class CoupledFlock {
   MarkovProcess noise{.sd = 2, .time = 0.7};  // of the acceleration beyond the forces [m/s^2, s]
   double tightness = 1;  // of what is known of the forces of usual birds, in their sds
 
-  // Neighbours are those that are near now, and accelerations count at the depths of now.
+  // Neighbours are those that are near now, accelerations count at the depths of now, and animals
+  // lean into the curves of now.
   void Relinearize();
 
   double Cost() const;

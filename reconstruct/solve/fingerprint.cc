@@ -43,6 +43,7 @@ std::uint64_t FingerprintOf(const BatchOptions& options, const Knowledge& knowle
       hash.Add(s.ray.y);
       hash.Add(s.ray_sd);
       hash.Add(s.log_size);
+      hash.Add(s.ellipticity);
     }
   }
   return hash.value();

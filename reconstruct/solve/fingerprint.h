@@ -33,6 +33,9 @@ class Hash {
     static_assert(std::is_arithmetic_v<T>);
     AddBytes(&value, sizeof value);
   }
+  void Add(const Vec2d& v) {
+    for (const double x : {v.x, v.y}) Add(x);
+  }
   void Add(const Vec3d& v) {
     for (const double x : {v.x, v.y, v.z}) Add(x);
   }

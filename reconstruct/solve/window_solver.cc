@@ -6,13 +6,17 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "reconstruct/cost_functions/path.h"
+#include "reconstruct/cost_functions/size.h"
 #include "reconstruct/solve/batch_solver.h"
 #include "reconstruct/solve/batch_start.h"
+#include "reconstruct/solve/body_fit.h"
 #include "reconstruct/solve/box_of_body.h"
+#include "reconstruct/solve/curves.h"
 #include "reconstruct/solve/read_out.h"
 #include "reconstruct/solve/size_model.h"
 #include "reconstruct/solve/spread_estimator.h"
@@ -20,6 +24,10 @@
 
 namespace flocklift::internal {
 namespace {
+
+// Boxes that change their form less are those of a ball, or of a detector that knows one form, as
+// far as forms tell (size_model.h).
+constexpr double kLeastFormSd = 0.1;
 
 // One round of estimating the spreads, at the present solution. Returns the covariance of the
 // flock's unknowns.
@@ -91,48 +99,40 @@ void TryOtherDepths(const ScaleGuess& guess, BatchState* state, BatchSolver* sol
   });
 }
 
-// How the animals turn as far as is known now, for their lean (cost_functions/size.h).
-void UpdateCurves(BatchState* state) {
-  constexpr double kGravity = 9.81;  // [m/s^2]
-  constexpr double kHalf = 0.3;      // accelerations are averaged so long before and after [s]
-  const double rate = 1 / state->model.knot_interval;
-  const int half = static_cast<int>(std::lround(kHalf * rate));
-  for (Bird& bird : state->birds) {
-    std::vector<Vec3d> sums(bird.curve.size() + 1);  // of all knots before
-    for (std::size_t knot = 0; knot < bird.curve.size(); ++knot) {
-      const PathState<double> q = StateAtKnot(&bird.path[3 * knot], rate);
-      const double time =
-          (bird.first_knot + static_cast<double>(knot)) * state->model.knot_interval;
-      sums[knot + 1] = sums[knot] + std::exp(q.l) / kGravity *
-                                        AccelerationOverDepth(q, state->model.camera.At(time));
-    }
-    const int knots = static_cast<int>(bird.curve.size());
-    for (int knot = 0; knot < knots; ++knot) {
-      const int first = std::max(0, knot - half), end = std::min(knots, knot + half + 1);
-      bird.curve[static_cast<std::size_t>(knot)] =
-          (1.0 / (end - first)) *
-          (sums[static_cast<std::size_t>(end)] - sums[static_cast<std::size_t>(first)]);
-    }
-  }
-}
-
-// How boxes relate to the wingspan in these views, as far as headings are known now.
-// `wingspan_sd`: relative, of the flock's mean. Returns how probably they are as large from every
-// side.
+// How sizes relate to the wingspan in these views, as far as headings are known now. `usual`: what
+// was known before of birds; `wingspan_sd`: relative, of the flock's mean; infinite: not known.
+// Returns how probably they are as large from every side.
 double UpdateSizeModel(const BatchOptions& options, double wingspan_sd, const BoxForm& form,
-                       const SizeModel& usual, const Eigen::MatrixXd& covariance,
+                       const SizeModel& usual, bool body_is_seen, const Eigen::MatrixXd& covariance,
                        BatchState* state) {
+  // What sizes may still differ by from those of a body whose form is known.
+  constexpr Uncertain kTrunk{kUsualLogTrunk, 0.4}, kUp{kUsualLogUp, 0.7};
   BatchModel& model = state->model;
   const SizeModel used{model.size_ratio, model.log_trunk, model.log_up};
   static_assert(kLogTrunk == kSizeRatio + 1 && kLogUp == kSizeRatio + 2);
   const SizeLikelihood likelihood(state->shared.segment<3>(kSizeRatio),
                                   covariance.block<3, 3>(kSizeRatio, kSizeRatio), used);
-  const double sd = std::hypot(options.size_ratio_sd, wingspan_sd);
-  SizeModel body = usual;
-  body.ratio = ExpectedBoxRatio(model, state->birds, state->shared, sd);
-  SizeModel stiff = StiffSizes(form);
+  const bool known = std::isfinite(wingspan_sd);
+  const auto expected = [&] {
+    if (!known) return usual.ratio;
+    return ExpectedBoxRatio(model, state->birds, state->shared,
+                            std::hypot(options.size_ratio_sd, wingspan_sd));
+  };
+  SizeModel body = usual, stiff = StiffSizes(form);
+  if (model.body.share > 0) {
+    body.log_trunk = kTrunk;
+    body.log_up = kUp;
+  }
+  body.ratio = expected();
   stiff.ratio.sd = std::hypot(stiff.ratio.sd, wingspan_sd);
+  if (!known) stiff.ratio = usual.ratio;
   const double p = ProbabilityOfStiff(likelihood, form, body, stiff);
+  if (body_is_seen) {
+    const double before = body.ratio.mean;
+    model.body.share = 1 - p;
+    body = {expected(), kTrunk, kUp};
+    state->shared[kSizeRatio] += body.ratio.mean - before;
+  }
   const SizeModel next = Mixture(p, body, stiff);
   model.size_ratio = next.ratio;
   model.log_trunk = next.log_trunk;
@@ -178,14 +178,21 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
     const Spreads first_guess = state.model.spreads;
     const BatchModel& model = state.model;
     const SizeModel usual{model.size_ratio, model.log_trunk, model.log_up};
-    const bool size_is_known = knowledge.wingspan && model.use_size && !model.belief;
+    const Uncertain usual_lean = model.lean;
+    const bool size_is_seen = model.use_size && !model.belief;
+    const double wingspan_sd =
+        knowledge.wingspan ? first_guess.size_between : std::numeric_limits<double>::infinity();
     const bool size_spread = knowledge.wingspan && knowledge.speed && model.use_size;
     for (int round = 0; round < kSpreadRounds; ++round) {
       const Eigen::MatrixXd covariance = EstimateSpreads(first_guess, size_spread, &state, &solver);
-      UpdateCurves(&state);
-      if (size_is_known) {
-        report.stiff_boxes = UpdateSizeModel(options, first_guess.size_between, segments.form,
-                                             usual, covariance, &state);
+      UpdateCurves(state.model, &state.birds);
+      if (size_is_seen) {
+        const bool body_is_seen =
+            segments.form.sd > kLeastFormSd &&
+            FitBody(segments.has_shapes, usual_lean, state.birds, &state.model);
+        const double stiff = UpdateSizeModel(options, wingspan_sd, segments.form, usual,
+                                             body_is_seen, covariance, &state);
+        if (knowledge.wingspan) report.stiff_boxes = stiff;
       }
       minimize(kSpreadIterations, roughly);
       if (round == kFirstSearch || round == kSecondSearch) {
@@ -226,7 +233,8 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   }
   CollectTerms(state, &report);
   solved.belief = {state.shared.head<kFlockScalars>(),
-                   covariance.topLeftCorner<kFlockScalars, kFlockScalars>().inverse()};
+                   covariance.topLeftCorner<kFlockScalars, kFlockScalars>().inverse(),
+                   state.model.body};
   return solved;
 }
 

@@ -61,6 +61,11 @@ std::string BytesOf(const SolvedWindow& solved) {
   PutNamed(d.forces, &out);
   for (const double x : solved.belief.mean) out.Put(x);
   for (const double x : solved.belief.information.reshaped()) out.Put(x);
+  const FlockBody& body = solved.belief.body;
+  const BodyShape& shape = body.image.shape();
+  out.Put(body.image.kind());
+  out.Put(std::array{shape.length, shape.trunk, shape.amplitude});
+  out.Put(std::array{body.length_sd, body.amplitude_sd, body.lean, body.share});
   return out.bytes();
 }
 
@@ -107,6 +112,13 @@ SolvedWindow WindowFrom(std::string_view bytes) {
   take_named(&d.forces);
   for (double& x : solved.belief.mean) in.Take(&x);
   for (double& x : solved.belief.information.reshaped()) in.Take(&x);
+  FlockBody& body = solved.belief.body;
+  BodyImage::Kind kind{};
+  BodyShape shape;
+  in.Take(&kind);
+  for (double* x : {&shape.length, &shape.trunk, &shape.amplitude}) in.Take(x);
+  body.image = BodyImage(kind, shape);
+  for (double* x : {&body.length_sd, &body.amplitude_sd, &body.lean, &body.share}) in.Take(x);
   return solved;
 }
 

@@ -150,6 +150,25 @@ TEST(SizeError, WithoutGravityWingsAreAnywhereAcross) {
   EXPECT_NEAR(across, -0.5 * std::log((0.5 * 1.1 + 0.25) / mean), 1e-9);
 }
 
+// With a body, trunk and up as usual, the size is that of the body's image.
+TEST(SizeError, FollowsTheImageOfABody) {
+  const BodyImage body(BodyImage::Kind::kBox, {.length = 0.5, .amplitude = 0});
+  const SizeError error{.rate = 1,
+                        .softening = 1e-9,
+                        .log_size = -4,
+                        .log_wingspan = std::log(0.7),
+                        .up_in_cam = Vec3d{0, -1, 0},
+                        .body = &body,
+                        .body_share = 1};
+  double away, across;
+  const double l = std::log(30.0), base = -4 - std::log(0.7 / 30);
+  error(Straight({0, 0, l}, {0, 0, 0.3}).data(), 0.0, 0.0, kUsualLogTrunk, kUsualLogUp, 0.0, &away);
+  error(Straight({0, 0, l}, {0.3, 0, 0}).data(), 0.0, 0.0, kUsualLogTrunk, kUsualLogUp, 0.0,
+        &across);
+  EXPECT_NEAR(away, base - 0.5 * std::log(1 + 0.01), 0.02);  // sides are certain to 3 %
+  EXPECT_NEAR(across, base - 0.5 * std::log(0.25 + 0.01), 0.03);
+}
+
 TEST(Errors, DerivativesMatchNumericDifferences) {
   const auto path = SomePath();
   for (const CameraMotion& camera :
@@ -182,8 +201,14 @@ TEST(Errors, DerivativesMatchNumericDifferences) {
       with_size[11] = -1.1;
       with_size[12] = -1.9;
       with_size[13] = 0.7;
-      ExpectGradient<1, 14>(
-          [&](const auto* p, auto* e) { size(p, p[9], p[10], p[11], p[12], p[13], e); }, with_size);
+      const BodyImage body(BodyImage::Kind::kSilhouette, {});  // a box has corners
+      size.body = &body;
+      for (const double share : {0.0, 0.7}) {
+        size.body_share = share;
+        ExpectGradient<1, 14>(
+            [&](const auto* p, auto* e) { size(p, p[9], p[10], p[11], p[12], p[13], e); },
+            with_size);
+      }
     }
   }
 }

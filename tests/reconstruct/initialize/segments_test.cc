@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "simulate/camera/projection.h"
 #include "tests/reconstruct/circling_flock.h"
@@ -70,6 +71,38 @@ TEST(Segments, ShapesAreTurnedIntoBoxes) {
   EXPECT_NEAR(*sightings[2].log_size - *sightings[0].log_size, std::log(1.5), 1e-9);
   EXPECT_FALSE(
       MakeSegments({.use_size = false}, tracks, camera, 30).segments[0].sightings[0].log_size);
+}
+
+// A shape along +30 degrees of the picture: moments of its axes, turned; a box has no diagonal.
+TEST(Segments, FormsByHand) {
+  const Camera camera = PinholeCamera(50, 1920, 1080);
+  Tracks tracks;
+  tracks.tracklets = {{1, {At(1, {960, 540})}}};
+  const Vec2d box = *MakeSegments({}, tracks, camera, 30).segments[0].sightings[0].ellipticity;
+  EXPECT_NEAR(box.x, (144.0 - 25) / (144 + 25), 1e-6);
+  EXPECT_EQ(box.y, 0);
+  tracks.tracklets[0].detections[0].shape = Shape{6, 2, 30, 12};
+  const Vec2d shape = *MakeSegments({}, tracks, camera, 30).segments[0].sightings[0].ellipticity;
+  EXPECT_NEAR(shape.x, 32.0 / 40 * 0.5, 1e-6);
+  EXPECT_NEAR(shape.y, 32.0 / 40 * std::sqrt(0.75), 1e-6);
+}
+
+// A camera that is rolled by 20 degrees sees a shape turned by as much; in the reference axes it is
+// what the camera saw that was not.
+TEST(Segments, FormsTurnWithTheCamera) {
+  Camera camera = PinholeCamera(50, 1920, 1080);
+  constexpr double kTurn = 20;
+  const double angle = kTurn * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+  const Rotation3d rolled = Rotation3d::FromRows({c, s, 0}, {-s, c, 0}, {0, 0, 1});
+  camera.cam_from_world_per_frame = {Rigid3d{}, Rigid3d{rolled, {}}};
+  Tracks tracks;
+  tracks.tracklets = {{1, {At(1, {959.5, 539.5}), At(2, {959.5, 539.5})}}};
+  tracks.tracklets[0].detections[0].shape = Shape{6, 2, 30, 12};
+  tracks.tracklets[0].detections[1].shape = Shape{6, 2, 30 - kTurn, 12};
+  const Segments segments = MakeSegments({}, tracks, camera, 30);
+  const auto& sightings = segments.segments[0].sightings;
+  EXPECT_NEAR(sightings[0].ellipticity->x, sightings[1].ellipticity->x, 1e-4);
+  EXPECT_NEAR(sightings[0].ellipticity->y, sightings[1].ellipticity->y, 1e-4);
 }
 
 TEST(Segments, NoiseIsEstimated) {
