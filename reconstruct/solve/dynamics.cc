@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "reconstruct/solve/box_of_body.h"
+#include "reconstruct/solve/common_scale.h"
 #include "reconstruct/solve/coupled_flock.h"
 #include "reconstruct/solve/fingerprint.h"
 #include "reconstruct/solve/force_posterior.h"
@@ -27,26 +29,6 @@ using namespace internal;  // NOLINT: the method's own parts
 // "substantial" (Jeffreys, Theory of Probability, 1961).
 constexpr double kSubstantial = 0.76;
 constexpr int kIterations = 350;  // of solvers in a window, about
-
-// Where the common scale drifts while forces are found, it is not because forces know it: it stays
-// that of the batch solution.
-void KeepScale(const std::vector<Bird>& before, const BatchModel& model, FollowedFlock* flock) {
-  double sum = 0, count = 0;
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    for (std::size_t k = 2; k < before[i].path.size(); k += 3) {
-      sum += flock->birds[i].path[k] - before[i].path[k];
-      ++count;
-    }
-  }
-  const double grown = sum / count;
-  for (Bird& bird : flock->birds) {
-    for (std::size_t k = 2; k < bird.path.size(); k += 3) bird.path[k] -= grown;
-    bird.own[kOwnLogSpeed] -= grown;
-  }
-  flock->shared[kFlockLogSpeed] -= grown;
-  flock->shared[kSizeRatio] -= grown;
-  for (int k = model.depth.first; k < model.depth.end(); ++k) flock->shared[k] -= grown;
-}
 
 // Moves `to` by `share` of the way to `from`.
 template <typename Values>
@@ -153,6 +135,17 @@ FollowedFlock StartOf(const WindowToRefine& masked, const FollowedFlock& flock) 
   return start;
 }
 
+// Boxes relate to the wingspan otherwise where animals turn out to fly otherwise.
+BatchModel ModelOf(const FollowedFlock& flock, const WindowToRefine& window) {
+  BatchModel model = window.model;
+  if (model.log_wingspan == 0) return model;
+  const auto ratio = [&](const std::vector<Bird>& birds, const Eigen::VectorXd& shared) {
+    return ExpectedBoxRatio(model, birds, shared, 0).mean;
+  };
+  model.size_ratio.mean += ratio(flock.birds, flock.shared) - ratio(*window.birds, *window.shared);
+  return model;
+}
+
 void Describe(const FollowedFlock& flock, DynamicsReport* report) {
   FlockForces f;
   f.unknowns = flock.forces;
@@ -215,7 +208,7 @@ BatchResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& ba
     const double better = ProbabilityOfBetter(test.errors, test.batch_errors, test.odds);
     if (!(better > kSubstantial)) return;
     const ForcePosterior posterior = PosteriorOf(window.model, &flock);
-    KeepScale(*window.birds, window.model, &flock);
+    FindCommonScale(ModelOf(flock, window), &flock.birds, &flock.shared);
     if (posterior.linear.empty()) return;
     const Both both = SideBySide(window, posterior, flock.birds);
     const double weight = better * both.LeastVarianceShare();

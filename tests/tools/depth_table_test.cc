@@ -181,8 +181,8 @@ double MeanLogDepth(const Camera& camera, const Trajectories& flock) {
   return sum / count;
 }
 
-// Forces that are there are found and make relative depth better, by a lot; the common scale, of
-// which they know nothing, stays that of batch.
+// Forces that are there are found and make relative depth better, by a lot; of the common scale
+// they know nothing, and it moves only as far as speeds and sizes are others on better paths.
 TEST_F(DepthTableTest, ForcesTellDepthWhereAFlockHasThem) {
   std::ofstream(folder_ / "depth_circling.toml") << kCircling;
   const DepthMethod batch{"batch"}, dynamics{"dynamics", ReconstructMethod::kDynamics};
@@ -195,7 +195,7 @@ TEST_F(DepthTableTest, ForcesTellDepthWhereAFlockHasThem) {
     error += with.scores.scaled_error_median;
     ASSERT_TRUE(with.report.dynamics.has_value());
     EXPECT_NEAR(MeanLogDepth(twin.camera, with.result), MeanLogDepth(twin.camera, without.result),
-                0.005);
+                0.03);
     if (with.report.dynamics->kept == 0) continue;
     EXPECT_LT(with.report.dynamics->dynamics_error, with.report.dynamics->batch_error);
     EXPECT_GT(with.report.dynamics->weight, 0);
