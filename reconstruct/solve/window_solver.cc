@@ -25,9 +25,9 @@
 namespace flocklift::internal {
 namespace {
 
-// Boxes that change their form less are those of a ball, or of a detector that knows one form, as
-// far as forms tell (size_model.h).
-constexpr double kLeastFormSd = 0.1;
+// Boxes that change their form less (box_form.h) are of a detector that knows but one form: it
+// tells nothing of bodies.
+constexpr double kLeastFormSd = 0.03;
 
 // One round of estimating the spreads, at the present solution. Returns the covariance of the
 // flock's unknowns.
