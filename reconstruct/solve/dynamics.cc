@@ -135,14 +135,16 @@ FollowedFlock StartOf(const WindowToRefine& masked, const FollowedFlock& flock) 
   return start;
 }
 
-// Boxes relate to the wingspan otherwise where animals turn out to fly otherwise.
+// Boxes relate to the wingspan otherwise where animals turn out to fly otherwise, so far as they
+// are boxes of bodies.
 BatchModel ModelOf(const FollowedFlock& flock, const WindowToRefine& window) {
   BatchModel model = window.model;
-  if (model.log_wingspan == 0) return model;
+  if (!(model.body.share > 0)) return model;
   const auto ratio = [&](const std::vector<Bird>& birds, const Eigen::VectorXd& shared) {
     return ExpectedBoxRatio(model, birds, shared, 0).mean;
   };
-  model.size_ratio.mean += ratio(flock.birds, flock.shared) - ratio(*window.birds, *window.shared);
+  model.size_ratio.mean +=
+      model.body.share * (ratio(flock.birds, flock.shared) - ratio(*window.birds, *window.shared));
   return model;
 }
 

@@ -195,7 +195,7 @@ TEST_F(DepthTableTest, ForcesTellDepthWhereAFlockHasThem) {
     error += with.scores.scaled_error_median;
     ASSERT_TRUE(with.report.dynamics.has_value());
     EXPECT_NEAR(MeanLogDepth(twin.camera, with.result), MeanLogDepth(twin.camera, without.result),
-                0.03);
+                0.015);
     if (with.report.dynamics->kept == 0) continue;
     EXPECT_LT(with.report.dynamics->dynamics_error, with.report.dynamics->batch_error);
     EXPECT_GT(with.report.dynamics->weight, 0);

@@ -103,6 +103,8 @@ TEST(Segments, FormsTurnWithTheCamera) {
   const auto& sightings = segments.segments[0].sightings;
   EXPECT_NEAR(sightings[0].ellipticity->x, sightings[1].ellipticity->x, 1e-4);
   EXPECT_NEAR(sightings[0].ellipticity->y, sightings[1].ellipticity->y, 1e-4);
+  for (Detection& d : tracks.tracklets[0].detections) d.shape.reset();  // boxes do not turn along
+  EXPECT_FALSE(MakeSegments({}, tracks, camera, 30).segments[0].sightings[0].ellipticity);
 }
 
 TEST(Segments, NoiseIsEstimated) {

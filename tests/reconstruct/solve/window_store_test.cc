@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -26,6 +27,7 @@ class WindowStoreTest : public testing::Test {
     fs::remove(path_);
     knowledge_.speed = Uncertain{10, 1};
     knowledge_.wingspan = Uncertain{0.6, 0.03};
+    knowledge_.up_in_cam = camera_.cam_from_world->rotation * Vec3d{0, 0, 1};
     options_.window = 2;
     options_.overlap = 0.5;
   }
@@ -39,11 +41,22 @@ class WindowStoreTest : public testing::Test {
                          checkpoint);
   }
 
+  // Boxes that change their form: later windows need the first one's body (body_fit.h).
+  Tracks Beating() const {
+    Tracks tracks = Observe(flock_, {}, CirclingFlock(flock_), camera_);
+    for (Tracklet& tracklet : tracks.tracklets) {
+      for (Detection& d : tracklet.detections) {
+        const double stretch = std::exp(0.3 * std::sin(1.7 * d.frame));
+        d.box = Box::Around(d.box.Center(), d.box.width / stretch, d.box.height * stretch);
+      }
+    }
+    return tracks;
+  }
+
   const fs::path path_ = fs::path(testing::TempDir()) / "window_store_test";
   FlockSpec flock_{.count = 3, .frames = 300};  // 10 s: five windows
   Camera camera_ = WatchingCamera();
-  Segments segments_ =
-      MakeSegments({}, Observe(flock_, {}, CirclingFlock(flock_), camera_), camera_, flock_.fps);
+  Segments segments_ = MakeSegments({}, Beating(), camera_, flock_.fps);
   Knowledge knowledge_;
   BatchOptions options_;
   DynamicsOptions dynamics_{.hidden = 0.5, .hidden_time = 0.4, .rounds = 1};
