@@ -113,16 +113,20 @@ struct BatchModel {
   }
 };
 
+// Which residuals: where forces explain accelerations, those are not among them.
+enum class RowKind { kAll, kNoAccelerations };
+
 // Hands every whitened residual of one bird to `take`, with derivatives when asked; else nothing of
 // a row but its residual counts.
 void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
-                bool derivatives, const RowSink& take);
+                bool derivatives, const RowSink& take, RowKind kind = RowKind::kAll);
 
 // The unwhitened errors e of the Markov terms at every knot, one row each, with derivatives.
 void ForEachError(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                   const RowSink& take);
 
-double CostOf(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared);
+double CostOf(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
+              RowKind kind = RowKind::kAll);
 
 // Priors of the flock's unknowns: cost, and if not null their normal equations (added).
 double SharedPriors(const BatchModel& model, const Eigen::VectorXd& shared, Eigen::MatrixXd* matrix,

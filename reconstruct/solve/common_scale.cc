@@ -49,13 +49,13 @@ void FindCommonScale(const BatchModel& model, std::vector<Bird>* birds, Eigen::V
     SharedPriors(model, *shared, &matrix, &gradient);
     double curvature = growth.dot(matrix * growth), slope = growth.dot(gradient);
     for (const Bird& bird : *birds) {
-      ForEachRow(model, bird, *shared, true, [&](Term term, const ResidualRow& row) {
-        if (term == Term::kAcceleration) return;
+      const auto add = [&](Term term, const ResidualRow& row) {
         const double by_growth = GrowthOf(row, growth);
         const double weight = RobustWeight(term, row.residual);
         curvature += weight * by_growth * by_growth;
         slope += weight * by_growth * row.residual;
-      });
+      };
+      ForEachRow(model, bird, *shared, true, add, RowKind::kNoAccelerations);
     }
     const double grown = -slope / curvature;
     if (!std::isfinite(grown)) return;

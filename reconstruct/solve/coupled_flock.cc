@@ -130,9 +130,7 @@ double CoupledFlock::Cost() const {
   Heard heard;
   double cost = SharedPriors(model_, shared_, nullptr, nullptr) + ForcePriors(nullptr, nullptr);
   for (std::size_t i = 0; i < birds_.size(); ++i) {
-    ForEachRow(model_, birds_[i], shared_, false, [&](Term term, const ResidualRow& row) {
-      if (term != Term::kAcceleration) cost += RobustCost(term, row.residual);
-    });
+    cost += CostOf(model_, birds_[i], shared_, RowKind::kNoAccelerations);
     Vec3d before;
     for (int k = 0; k < birds_[i].knots; ++k) {
       const std::size_t line = LineOf(i, k);

@@ -42,8 +42,7 @@ Columns<CoupledFlock::kSamples> CoupledFlock::Draw(std::uint64_t seed,
   for (std::size_t i = 0; i < birds_.size(); ++i) {
     const Bird& bird = birds_[i];
     Rng rng(seed, i);
-    ForEachRow(model_, bird, shared_, true, [&](Term term, const ResidualRow& row) {
-      if (term == Term::kAcceleration) return;
+    const auto pull = [&](Term term, const ResidualRow& row) {
       const Row e = std::sqrt(RobustWeight(term, row.residual)) * normals(rng);
       const int count = std::min<int>(ArrowSystem::kBand, bird.unknowns() - row.first);
       for (int a = 0; a < count; ++a) {
@@ -55,7 +54,8 @@ Columns<CoupledFlock::kSamples> CoupledFlock::Draw(std::uint64_t seed,
                                                      : place_.back() + index - kOwnUnknowns;
         pulled.row(at) += derivative * e;
       }
-    });
+    };
+    ForEachRow(model_, bird, shared_, true, pull, RowKind::kNoAccelerations);
     for (int k = 0; k < bird.knots; ++k) {
       const std::size_t at = LineOf(i, k);
       for (int axis = 0; axis < 3; ++axis) {

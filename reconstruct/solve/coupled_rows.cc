@@ -166,9 +166,10 @@ void CoupledFlock::Linearize() {
     const Bird& bird = birds_[i];
     ArrowSystem& animal = animals_[i];
     animal.SetZero();
-    ForEachRow(model_, bird, shared_, true, [&](Term term, const ResidualRow& row) {
-      if (term != Term::kAcceleration) animal.Add(row, RobustWeight(term, row.residual));
-    });
+    const auto add = [&animal](Term term, const ResidualRow& row) {
+      animal.Add(row, RobustWeight(term, row.residual));
+    };
+    ForEachRow(model_, bird, shared_, true, add, RowKind::kNoAccelerations);
     for (int k = 0; k < bird.knots; ++k) {
       const ArrowSystem::Rows rows = RowsOf(i, k, whitening);
       Line& line = lines_[LineOf(i, k)];

@@ -115,10 +115,7 @@ void OneAnimal::Update() {
 
 double OneAnimal::Cost() const {
   const MarkovWhitening whitening = flock_.Whitening();
-  double cost = 0;
-  ForEachRow(flock_.model_, bird(), flock_.shared_, false, [&](Term term, const ResidualRow& row) {
-    if (term != Term::kAcceleration) cost += RobustCost(term, row.residual);
-  });
+  double cost = CostOf(flock_.model_, bird(), flock_.shared_, RowKind::kNoAccelerations);
   for (std::size_t i = 0; i < flock_.birds_.size(); ++i) {
     Vec3d before;
     for (int k = 0; k < flock_.birds_[i].knots; ++k) {
@@ -135,9 +132,10 @@ double OneAnimal::Cost() const {
 
 void OneAnimal::Linearize() {
   system_.SetZero();
-  ForEachRow(flock_.model_, bird(), flock_.shared_, true, [&](Term term, const ResidualRow& row) {
-    if (term != Term::kAcceleration) system_.Add(row, RobustWeight(term, row.residual));
-  });
+  const auto add = [&](Term term, const ResidualRow& row) {
+    system_.Add(row, RobustWeight(term, row.residual));
+  };
+  ForEachRow(flock_.model_, bird(), flock_.shared_, true, add, RowKind::kNoAccelerations);
   LinearizeOwn();
   LinearizeOthers();
 }
