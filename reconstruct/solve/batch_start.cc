@@ -166,6 +166,17 @@ void GridDepth(const BatchModel& model, const DepthSearchPriors& priors, Bird* b
 
 }  // namespace
 
+Bird WithSightings(const BatchModel& model, const Segment& segment, const Bird& solved) {
+  Bird bird = solved;
+  bird.segment = &segment;
+  bird.places.clear();
+  for (const Sighting& s : segment.sightings) bird.places.push_back(PlaceAt(model, bird, s.time));
+  BinSizes(model, &bird);
+  bird.curve = solved.curve;
+  SmoothImagePath(model, &bird);
+  return bird;
+}
+
 Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time) {
   const double position = time / model.knot_interval - bird.first_knot;
   Bird::Place place;

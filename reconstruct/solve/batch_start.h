@@ -30,6 +30,10 @@ Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time);
 Bird StartBird(const BatchModel& model, const Knowledge& knowledge, const ScaleGuess& guess,
                const Segment& segment, double fps, int first_frame);
 
+// A solved animal at the same knots with other sightings: its depths and what else is known of it
+// stay, the image path is smoothed anew.
+Bird WithSightings(const BatchModel& model, const Segment& segment, const Bird& solved);
+
 // The depth is searched anew by what is known of the animal and the flock by now. Its speed and
 // sizes are taken for twice as certain as they are: where smoothness left a path in a reversal of
 // depth, they lead out of it.

@@ -81,7 +81,7 @@ Both SideBySide(const WindowToRefine& window, const ForcePosterior& posterior,
       double off = 0;
       for (std::size_t a = 0; a < 4; ++a) {
         const std::size_t at = 3 * (static_cast<std::size_t>(place.interval) + a) + 2;
-        off += place.weights[a] * (flock[i].path[at] - (*window.birds)[i].path[at]);
+        off += place.weights[a] * (flock[i].path[at] - window.state.birds[i].path[at]);
       }
       both.off[i][k] = off;
     }
@@ -100,12 +100,12 @@ struct Test {
     constexpr std::size_t kEnough = 60;
     return errors.size() < kEnough && (folds + 1) * share <= 1 + 1e-9;
   }
-  void AddBatch(const HiddenSightings& hidden, const WindowToRefine& masked) {
-    const auto more = hidden.ErrorsOf(*masked.birds, masked.model.knot_interval);
+  void AddBatch(const HiddenSightings& hidden, const BatchState& masked) {
+    const auto more = hidden.ErrorsOf(masked.birds, masked.model.knot_interval);
     batch_errors.insert(batch_errors.end(), more.begin(), more.end());
     count += hidden.count();
   }
-  void AddForces(const HiddenSightings& hidden, const WindowToRefine& masked,
+  void AddForces(const HiddenSightings& hidden, const BatchState& masked,
                  const FollowedFlock& flock) {
     const auto more = hidden.ErrorsOf(flock.birds, masked.model.knot_interval);
     errors.insert(errors.end(), more.begin(), more.end());
@@ -123,11 +123,11 @@ std::vector<Bird> OnPathsOf(std::vector<Bird> birds, const std::vector<Bird>& ot
 
 // Another fold's start: who is how far away is known from `flock`, as forces and noise are. Where
 // animals are in the picture is not: `flock` has seen what this fold hides.
-FollowedFlock StartOf(const WindowToRefine& masked, const FollowedFlock& flock) {
+FollowedFlock StartOf(const BatchState& masked, const FollowedFlock& flock) {
   FollowedFlock start = flock;
-  start.birds = OnPathsOf(*masked.birds, flock.birds);
+  start.birds = OnPathsOf(masked.birds, flock.birds);
   for (std::size_t i = 0; i < start.birds.size(); ++i) {
-    const std::vector<double>& seen = (*masked.birds)[i].path;
+    const std::vector<double>& seen = masked.birds[i].path;
     for (std::size_t k = 0; k < seen.size(); ++k) {
       if (k % 3 != 2) start.birds[i].path[k] = seen[k];
     }
@@ -138,13 +138,13 @@ FollowedFlock StartOf(const WindowToRefine& masked, const FollowedFlock& flock) 
 // Boxes relate to the wingspan otherwise where animals turn out to fly otherwise, so far as they
 // are boxes of bodies.
 BatchModel ModelOf(const FollowedFlock& flock, const WindowToRefine& window) {
-  BatchModel model = window.model;
+  BatchModel model = window.state.model;
   if (!(model.body.share > 0)) return model;
   const auto ratio = [&](const std::vector<Bird>& birds, const Eigen::VectorXd& shared) {
     return ExpectedBoxRatio(model, birds, shared, 0).mean;
   };
-  model.size_ratio.mean +=
-      model.body.share * (ratio(flock.birds, flock.shared) - ratio(*window.birds, *window.shared));
+  model.size_ratio.mean += model.body.share * (ratio(flock.birds, flock.shared) -
+                                               ratio(window.state.birds, window.state.shared));
   return model;
 }
 
@@ -176,31 +176,26 @@ BatchResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& ba
   const WindowRefiner refine = [&](const WindowToRefine& window) {
     Test test;
     FollowedFlock flock;
-    // The batch solution without what a fold hides.
-    const auto without = [&](const HiddenSightings& hidden, const WindowRefiner& go_on) {
-      SolveWindow(batch_options, knowledge, hidden.rest(), window.belief, window.first_frame, fps,
-                  threads, window.model.on_iteration, go_on);
-    };
     for (int fold = 0; fold == 0 || test.WantsMore(fold, options.hidden); ++fold) {
       const HiddenSightings hidden(options.hidden, options.hidden_time, fps, window.segments, fold);
       if (hidden.count() == 0) {
         if (fold == 0) return;
         continue;
       }
-      without(hidden, [&](const WindowToRefine& masked) {
-        test.AddBatch(hidden, masked);
-        if (fold == 0) {
-          flock = FollowForces(options, masked);
-          const double less = masked.model.spreads.acceleration.sd / flock.noise.sd;
-          test.odds = less * less;
-          test.AddForces(hidden, masked, flock);
-        } else {
-          FollowedFlock other = StartOf(masked, flock);
-          Settle(masked.model, &other);
-          test.AddForces(hidden, masked, other);
-        }
-      });
-      if (fold == 0) flock.birds = OnPathsOf(*window.birds, flock.birds);
+      const BatchState masked =
+          SolveAgain(window.state, hidden.rest(), batch_options.max_iterations, threads);
+      test.AddBatch(hidden, masked);
+      if (fold == 0) {
+        flock = FollowForces(options, masked);
+        const double less = masked.model.spreads.acceleration.sd / flock.noise.sd;
+        test.odds = less * less;
+        test.AddForces(hidden, masked, flock);
+      } else {
+        FollowedFlock other = StartOf(masked, flock);
+        Settle(masked.model, &other);
+        test.AddForces(hidden, masked, other);
+      }
+      if (fold == 0) flock.birds = OnPathsOf(window.state.birds, flock.birds);
     }
     DynamicsReport& report = *window.report;
     report.windows = 1;
@@ -209,7 +204,7 @@ BatchResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& ba
     report.dynamics_error = MeanOf(test.errors);
     const double better = ProbabilityOfBetter(test.errors, test.batch_errors, test.odds);
     if (!(better > kSubstantial)) return;
-    const ForcePosterior posterior = PosteriorOf(window.model, &flock);
+    const ForcePosterior posterior = PosteriorOf(window.state.model, &flock);
     FindCommonScale(ModelOf(flock, window), &flock.birds, &flock.shared);
     if (posterior.linear.empty()) return;
     const Both both = SideBySide(window, posterior, flock.birds);
@@ -219,10 +214,10 @@ BatchResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& ba
     report.weight = weight;
     *window.posterior = both.Mixed(weight, posterior.open);
     for (std::size_t i = 0; i < flock.birds.size(); ++i) {
-      Approach(weight, flock.birds[i].path, &(*window.birds)[i].path);
-      Approach(weight, flock.birds[i].own, &(*window.birds)[i].own);
+      Approach(weight, flock.birds[i].path, &window.state.birds[i].path);
+      Approach(weight, flock.birds[i].own, &window.state.birds[i].own);
     }
-    Approach(weight, flock.shared, window.shared);
+    Approach(weight, flock.shared, &window.state.shared);
     Describe(flock, &report);
   };
   return SolveBatch(batch_options, knowledge, segments, fps, threads, progress, checkpoint,

@@ -136,22 +136,22 @@ int Sweeps(std::size_t animals) {
 
 }  // namespace
 
-FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine& window) {
-  FollowedFlock start{*window.birds, *window.shared, {}, {}, 0, {}, {}};
+FollowedFlock FollowForces(const DynamicsOptions& options, const BatchState& batch) {
+  FollowedFlock start{batch.birds, batch.shared, {}, {}, 0, {}, {}};
   FollowedFlock best = start;
-  FollowFitted(options, window.model, &best);
+  FollowFitted(options, batch.model, &best);
   start.scale = best.scale;
   FollowedFlock next;
-  for (const double together : AnnealedStarts(window.model.use_size, start.birds.size())) {
+  for (const double together : AnnealedStarts(batch.model.use_size, start.birds.size())) {
     FollowedFlock flock = start;
-    FollowAnnealed(options, window.model, together, &flock);
+    FollowAnnealed(options, batch.model, together, &flock);
     if (flock.improbable < best.improbable) std::swap(flock, best);
     if (next.birds.empty() || flock.improbable < next.improbable) next = std::move(flock);
   }
   best.apart = Apart(best.birds, next.birds);
   const int sweeps = Sweeps(best.birds.size());
-  if (sweeps > 0) best.Settle(window.model, kAnnealIterations);
-  for (int sweep = 0; sweep < sweeps && MoveDepths(window.model, &best) > 0; ++sweep) {
+  if (sweeps > 0) best.Settle(batch.model, kAnnealIterations);
+  for (int sweep = 0; sweep < sweeps && MoveDepths(batch.model, &best) > 0; ++sweep) {
   }
   return best;
 }

@@ -13,13 +13,13 @@
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_SEARCH_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_SEARCH_H_
 
+#include "reconstruct/solve/batch_solver.h"
 #include "reconstruct/solve/dynamics.h"
 #include "reconstruct/solve/followed_flock.h"
-#include "reconstruct/solve/window_solver.h"
 
 namespace flocklift::internal {
 
-FollowedFlock FollowForces(const DynamicsOptions& options, const WindowToRefine& window);
+FollowedFlock FollowForces(const DynamicsOptions& options, const BatchState& batch);
 
 // Goes on with what is known of forces and noise.
 void Settle(const BatchModel& model, FollowedFlock* flock);

@@ -12,7 +12,6 @@
 
 #include "reconstruct/cost_functions/path.h"
 #include "reconstruct/cost_functions/size.h"
-#include "reconstruct/solve/batch_solver.h"
 #include "reconstruct/solve/batch_start.h"
 #include "reconstruct/solve/body_fit.h"
 #include "reconstruct/solve/box_of_body.h"
@@ -140,6 +139,11 @@ double UpdateSizeModel(const BatchOptions& options, double wingspan_sd, const Bo
   return p;
 }
 
+// When a solution stands still, in units of log likelihood.
+BatchSolver::Standstill Finally(const std::vector<Bird>& birds) {
+  return {.fall = 2e-4 * static_cast<double>(birds.size()), .times = 3};
+}
+
 }  // namespace
 
 SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge,
@@ -171,7 +175,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
   // In units of log likelihood. While the spreads change there is less to wait for.
   const double animals = static_cast<double>(state.birds.size());
   const BatchSolver::Standstill roughly{.fall = 0.01 * animals, .times = 1};
-  const BatchSolver::Standstill finally{.fall = 2e-4 * animals, .times = 3};
+  const BatchSolver::Standstill finally = Finally(state.birds);
   if (!options.estimate) minimize(options.max_iterations, finally);
   if (options.estimate) {
     minimize(kStartIterations, roughly);
@@ -216,8 +220,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
       }
       return all;
     };
-    refine({segments, belief, first_frame, state.model, &state.birds, &state.shared, &posterior,
-            variances, &report.dynamics});
+    refine({segments, state, &posterior, variances, &report.dynamics});
   }
   report.final_cost = solver.Cost();
   const Eigen::MatrixXd covariance = ReadOut(&state, &solver, &solved.result);
@@ -236,6 +239,17 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
                    covariance.topLeftCorner<kFlockScalars, kFlockScalars>().inverse(),
                    state.model.body};
   return solved;
+}
+
+BatchState SolveAgain(const BatchState& solved, const Segments& segments, int max_iterations,
+                      int threads) {
+  BatchState state{solved.model, {}, solved.shared};
+  for (std::size_t i = 0; i < solved.birds.size(); ++i) {
+    state.birds.push_back(WithSightings(state.model, segments.segments[i], solved.birds[i]));
+  }
+  int iterations = 0;
+  BatchSolver(&state, threads).Minimize(max_iterations, Finally(state.birds), &iterations);
+  return state;
 }
 
 }  // namespace flocklift::internal

@@ -17,6 +17,7 @@
 #include "reconstruct/solve/batch.h"
 #include "reconstruct/solve/batch_options.h"
 #include "reconstruct/solve/batch_problem.h"
+#include "reconstruct/solve/batch_solver.h"
 
 namespace flocklift::internal {
 
@@ -41,11 +42,7 @@ struct DepthPosterior {
 // its own paths, their posterior where that is not the batch method's, and its report.
 struct WindowToRefine {
   const Segments& segments;
-  const std::optional<Belief>& belief;
-  int first_frame = 0;
-  const BatchModel& model;
-  std::vector<Bird>* birds = nullptr;
-  Eigen::VectorXd* shared = nullptr;
+  BatchState& state;
   std::optional<DepthPosterior>* posterior = nullptr;
   // How sure the batch method is itself: variances of the log depth at every sighting, by segment,
   // that of the common scale taken out.
@@ -60,6 +57,11 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
                          int first_frame, double fps, int threads,
                          const std::function<void()>& on_iteration,
                          const WindowRefiner& refine = {});
+
+// The batch solution for other sightings of the same animals, their first and last among them,
+// with the spreads and from the depths of a solution: far cheaper than from nothing.
+BatchState SolveAgain(const BatchState& solved, const Segments& segments, int max_iterations,
+                      int threads);
 
 }  // namespace flocklift::internal
 

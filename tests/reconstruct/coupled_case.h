@@ -46,7 +46,7 @@ void WithWindow(const FlockSpec& spec, const BatchOptions& options, const Check&
 template <typename Check>
 void WithFlock(const FlockSpec& spec, const BatchOptions& options, const Check& check) {
   WithWindow(spec, options, [&](const internal::WindowToRefine& window) {
-    internal::CoupledFlock flock(window.model, window.birds, window.shared);
+    internal::CoupledFlock flock(window.state.model, &window.state.birds, &window.state.shared);
     check(window, flock);
   });
 }

@@ -35,11 +35,11 @@ TEST(CoupledFlock, GradientIsThatOfDifferences) {
               const Eigen::VectorXd gradient = flock.Gradient();
               const auto move = [&](const Eigen::VectorXd& d, double step) {
                 Eigen::Index at = 0;
-                for (internal::Bird& bird : *window.birds) {
+                for (internal::Bird& bird : window.state.birds) {
                   for (double& p : bird.path) p += step * d[at++];
                   for (double& p : bird.own) p += step * d[at++];
                 }
-                for (double& p : *window.shared) p += step * d[at++];
+                for (double& p : window.state.shared) p += step * d[at++];
                 for (double& p : flock.forces.unknowns) p += step * d[at++];
                 EXPECT_EQ(at, d.size());
               };
@@ -96,7 +96,7 @@ TEST(CoupledFlock, DepthsAreAsSureAsTheInverseSays) {
             [](const internal::WindowToRefine& window, internal::CoupledFlock& flock) {
               const auto sds = flock.Depths();
               const Eigen::MatrixXd covariance = MatrixOf(&flock).inverse();
-              const std::vector<internal::Bird>& birds = *window.birds;
+              const std::vector<internal::Bird>& birds = window.state.birds;
               Eigen::Index at = 0;
               std::vector<Eigen::VectorXd> rows;
               Eigen::VectorXd mean = Eigen::VectorXd::Zero(covariance.rows());
@@ -148,12 +148,12 @@ TEST(CoupledFlock, HoldsWhatItIsToldToHold) {
   WithFlock({.count = 5, .frames = 60}, {},
             [](const internal::WindowToRefine& window, internal::CoupledFlock& flock) {
               const double usual = flock.forces[internal::kLogAlphaS];
-              const double speed = (*window.shared)[internal::kFlockLogSpeed];
+              const double speed = window.state.shared[internal::kFlockLogSpeed];
               flock.HoldSeparation(0.1);
               flock.FitForces(5);
               flock.Minimize(10);
               EXPECT_NEAR(flock.forces[internal::kLogAlphaS] / usual, 0.1, 0.01);
-              EXPECT_NEAR((*window.shared)[internal::kFlockLogSpeed], speed, 0.01);
+              EXPECT_NEAR(window.state.shared[internal::kFlockLogSpeed], speed, 0.01);
               flock.HoldSeparation(1);
               EXPECT_NEAR(flock.forces[internal::kLogAlphaS] / usual, 1, 0.01);
             });
@@ -163,11 +163,11 @@ TEST(CoupledFlock, HoldsWhatItIsToldToHold) {
 TEST(ForceSearch, IsAtLeastAsProbableAsFromTheBatchSolutionAlone) {
   const FlockSpec spec{.count = 5, .frames = 90};
   WithWindow(spec, {}, [&](const internal::WindowToRefine& window) {
-    const auto found = internal::FollowForces({}, window);
-    ASSERT_EQ(found.apart.size(), window.birds->size());
+    const auto found = internal::FollowForces({}, window.state);
+    ASSERT_EQ(found.apart.size(), window.state.birds.size());
     for (const double apart : found.apart) EXPECT_GE(apart, 0);
-    internal::CoupledFlock fitted(window.model, window.birds, window.shared);
-    fitted.noise = {window.model.spreads.acceleration.sd, 0.7};
+    internal::CoupledFlock fitted(window.state.model, &window.state.birds, &window.state.shared);
+    fitted.noise = {window.state.model.spreads.acceleration.sd, 0.7};
     fitted.FitForces(12);
     for (int round = 0; round < 3; ++round) {
       fitted.Minimize(6);
@@ -175,7 +175,7 @@ TEST(ForceSearch, IsAtLeastAsProbableAsFromTheBatchSolutionAlone) {
       fitted.noise.sd = fitted.EstimateNoise();
     }
     double accelerations = 0;
-    for (const internal::Bird& bird : *window.birds) accelerations += 3.0 * bird.knots;
+    for (const internal::Bird& bird : window.state.birds) accelerations += 3.0 * bird.knots;
     const double improbable = fitted.Cost() + accelerations * std::log(fitted.noise.sd);
     EXPECT_LT(found.improbable, improbable + 0.02 * accelerations);
   });
@@ -189,10 +189,10 @@ TEST(CoupledFlock, ItsDepthsAreAsCertainAsItsNoiseLetsThemBe) {
               const auto calm = flock.Depths();
               flock.noise.sd = 4;
               const auto noisy = flock.Depths();
-              ASSERT_EQ(calm.at.size(), window.birds->size());
-              ASSERT_EQ(noisy.at.size(), window.birds->size());
+              ASSERT_EQ(calm.at.size(), window.state.birds.size());
+              ASSERT_EQ(noisy.at.size(), window.state.birds.size());
               for (std::size_t i = 0; i < calm.at.size(); ++i) {
-                ASSERT_EQ(calm.at[i].size(), (*window.birds)[i].places.size());
+                ASSERT_EQ(calm.at[i].size(), window.state.birds[i].places.size());
                 ASSERT_EQ(noisy.at[i].size(), calm.at[i].size());
                 for (std::size_t k = 0; k < calm.at[i].size(); ++k) {
                   EXPECT_GT(calm.at[i][k], 0);

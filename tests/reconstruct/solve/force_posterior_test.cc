@@ -27,11 +27,11 @@ double Widening(const internal::WindowToRefine& window, internal::FollowedFlock 
                 double apart) {
   flock.apart.assign(flock.birds.size(), apart);
   internal::FollowedFlock same = flock;
-  const internal::ForcePosterior posterior = internal::PosteriorOf(window.model, &flock);
+  const internal::ForcePosterior posterior = internal::PosteriorOf(window.state.model, &flock);
   EXPECT_EQ(posterior.open.size(), flock.birds.size());
   for (const double open : posterior.open) EXPECT_NEAR(open, 0.49 * apart * apart, 1e-12);
   constexpr int kIterations = 6;  // the posterior's own
-  auto sds = same.Settle(window.model, kIterations).Depths().at;
+  auto sds = same.Settle(window.state.model, kIterations).Depths().at;
   for (auto& animal : sds) {
     for (double& sd : animal) sd *= sd;
   }
@@ -43,7 +43,7 @@ double Widening(const internal::WindowToRefine& window, internal::FollowedFlock 
 TEST(ForcePosterior, EdgesAreNoSharperThanDistancesAreKnown) {
   const FlockSpec spec{.count = 8, .frames = 90};
   WithWindow(spec, {}, [&](const internal::WindowToRefine& window) {
-    internal::FollowedFlock found = internal::FollowForces({}, window);
+    internal::FollowedFlock found = internal::FollowForces({}, window.state);
     const double unsure = Widening(window, found, 0.1);
     EXPECT_GT(unsure, 1.2 * Widening(window, found, 0));
     EXPECT_GT(Widening(window, found, 0.3), 1.2 * unsure);

@@ -55,6 +55,34 @@ TEST(HiddenSightings, FoldsHideAllButTheEndsOnce) {
   }
 }
 
+// Solved again without them, from a solution that saw them: where in the picture that was is
+// forgotten, and what comes out is a minimum of what is left.
+TEST(HiddenSightings, AreNotKnownToWhatIsSolvedAgain) {
+  WithWindow({.count = 5, .frames = 120}, {}, [](const internal::WindowToRefine& window) {
+    const internal::HiddenSightings hidden(0.25, 1, kFps, window.segments);
+    internal::BatchState elsewhere = window.state;
+    for (internal::Bird& bird : elsewhere.birds) {
+      for (std::size_t k = 0; k < bird.path.size(); ++k) {
+        if (k % 3 != 2) bird.path[k] += 0.1;
+      }
+    }
+    constexpr int kIterations = 100;
+    internal::BatchState again = internal::SolveAgain(window.state, hidden.rest(), kIterations, 1);
+    const auto other = internal::SolveAgain(elsewhere, hidden.rest(), kIterations, 1);
+    for (std::size_t i = 0; i < again.birds.size(); ++i) {
+      EXPECT_EQ(again.birds[i].path, other.birds[i].path) << i;
+    }
+    const double interval = again.model.knot_interval;
+    EXPECT_GT(internal::MeanOf(hidden.ErrorsOf(again.birds, interval)),
+              1.2 * internal::MeanOf(hidden.ErrorsOf(window.state.birds, interval)));
+    internal::BatchSolver solver(&again, 1);
+    const double cost = solver.Cost();
+    int iterations = 0;
+    solver.Minimize(kIterations, {.fall = 0, .times = 5}, &iterations);
+    EXPECT_NEAR(solver.Cost(), cost, 0.02);
+  });
+}
+
 TEST(HiddenSightings, BetterIsAsProbableAsTheScalesOfErrorsSay) {
   using internal::ProbabilityOfBetter;
   // Square roots: errors are half as large. Four pieces of two coordinates: odds of 2^8.

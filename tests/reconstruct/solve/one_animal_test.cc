@@ -43,7 +43,7 @@ TEST(OneAnimal, ItsCostChangesAsThatOfAll) {
     for (const std::size_t i : {0, 3, 5, 3}) {
       one.Choose(i);
       const double own = one.Cost(), all = flock.Cost();
-      const Bird bird = (*window.birds)[i];
+      const Bird bird = window.state.birds[i];
       one.Put(Moved(bird, &rng, 1e-3));
       const double change = flock.Cost() - all;
       EXPECT_GT(std::abs(change), 1);
@@ -65,7 +65,7 @@ TEST(OneAnimal, ComesToRestWhereTheCostOfAllHasNoSlope) {
       Rng rng(8);
       double square = 0;
       for (int trial = 0; trial < 10; ++trial) {
-        const Bird bird = (*window.birds)[kAnimal];
+        const Bird bird = window.state.birds[kAnimal];
         const Bird next = Moved(bird, &rng, 1e-7);
         Bird last = bird;
         for (std::size_t k = 0; k < bird.path.size(); ++k)
@@ -94,16 +94,16 @@ TEST(DepthMoves, LeadOutOfWhereSettlingEnds) {
   double gain = 0;
   const FlockSpec spec{.count = 6, .frames = 90};
   WithWindow(spec, {}, [&](const WindowToRefine& window) {
-    const internal::FollowedFlock found = internal::FollowForces({}, window);
+    const internal::FollowedFlock found = internal::FollowForces({}, window.state);
     for (std::size_t i = 0; i < found.birds.size(); ++i) {
       for (const double off : {-0.5, 0.3, 0.4, 0.5}) {
         internal::FollowedFlock flock = found;
         for (std::size_t k = 2; k < flock.birds[i].path.size(); k += 3) {
           flock.birds[i].path[k] += off;
         }
-        for (int again = 0; again < 4; ++again) flock.Settle(window.model, 60);
+        for (int again = 0; again < 4; ++again) flock.Settle(window.state.model, 60);
         const double stuck = flock.improbable;
-        internal::MoveDepths(window.model, &flock);
+        internal::MoveDepths(window.state.model, &flock);
         EXPECT_LE(flock.improbable, stuck);
         gain += stuck - flock.improbable;
       }
@@ -117,8 +117,8 @@ TEST(DepthMoves, LeadOutOfWhereSettlingEnds) {
 TEST(FollowedFlock, KeepsTheScaleOfItsProbability) {
   const FlockSpec spec{.count = 6, .frames = 90};
   WithWindow(spec, {}, [&](const WindowToRefine& window) {
-    internal::FollowedFlock found = internal::FollowForces({}, window);
-    found.Settle(window.model, 60);
+    internal::FollowedFlock found = internal::FollowForces({}, window.state);
+    found.Settle(window.state.model, 60);
     internal::FollowedFlock grown = found;
     for (internal::Bird& bird : grown.birds) {
       for (std::size_t k = 2; k < bird.path.size(); k += 3) {
@@ -126,7 +126,7 @@ TEST(FollowedFlock, KeepsTheScaleOfItsProbability) {
       }
     }
     const auto costs_more = [&] {
-      return grown.Coupled(window.model).Cost() - found.Coupled(window.model).Cost();
+      return grown.Coupled(window.state.model).Cost() - found.Coupled(window.state.model).Cost();
     };
     const double beside = costs_more();
     grown.scale.reset();
