@@ -249,14 +249,17 @@ bool CoupledFlock::Minimize(int max_iterations, const Effort& effort) {
     }
     const std::vector<Bird> birds = birds_;
     const Eigen::VectorXd shared = shared_, unknowns = forces.unknowns;
-    Move(Solve<1>(-gradient_, effort.step));
-    const double candidate = Cost();
+    const Eigen::VectorXd step = Solve<1>(-gradient_, effort.step);
+    Move(step);
+    const double candidate = Cost(), promised = -0.5 * gradient_.dot(step);
     if (candidate < cost) {
-      const bool still = cost - candidate < effort.enough * static_cast<double>(birds_.size());
+      const double fall = cost - candidate;
       cost = candidate;
-      damping = std::max(0.1 * damping, kLeastDamping);
+      const double rho = 2 * fall / promised - 1;
+      damping = std::max(std::max(0.1, 1 - rho * rho * rho) * damping, kLeastDamping);
       linearized = false;
-      if (still) return true;
+      if (fall < effort.enough * static_cast<double>(birds_.size())) return true;
+      if (cost - (max_iterations - iteration - 1) * fall > effort.hopeless) return false;
     } else {
       birds_ = birds;
       shared_ = shared;

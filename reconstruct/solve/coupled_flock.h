@@ -20,6 +20,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -36,6 +37,8 @@ namespace flocklift::internal {
 struct Effort {
   double enough = 0.1;  // fall of the cost that counts, for each animal
   GradientStop step{.share = 1e-2, .most = 200};
+  // A cost that falls of the last size, in all iterations that are left, would not bring below.
+  double hopeless = std::numeric_limits<double>::infinity();
 };
 
 class CoupledFlock {

@@ -87,7 +87,7 @@ int MoveDepths(const BatchModel& model, FollowedFlock* flock) {
     FollowedFlock other = *flock;
     other.birds[place.animal].path = place.bird.path;
     other.birds[place.animal].own = place.bird.own;
-    other.Settle(model, kTogether);
+    other.Settle(model, kTogether, flock->improbable);
     if (!(other.improbable < flock->improbable - kGain)) continue;
     *flock = std::move(other);
     ++moved;

@@ -15,18 +15,22 @@ CoupledFlock FollowedFlock::Coupled(const BatchModel& model) {
   return coupled;
 }
 
-void FollowedFlock::Take(const CoupledFlock& coupled) {
+double FollowedFlock::OfNoise() const {
   double accelerations = 0;
   for (const Bird& bird : birds) accelerations += 3.0 * bird.knots;
+  return accelerations * std::log(noise.sd);
+}
+
+void FollowedFlock::Take(const CoupledFlock& coupled) {
   forces = coupled.forces.unknowns;
   noise = coupled.noise;
   scale = coupled.scale();
-  improbable = coupled.Cost() + accelerations * std::log(noise.sd);
+  improbable = coupled.Cost() + OfNoise();
 }
 
-CoupledFlock FollowedFlock::Settle(const BatchModel& model, int iterations) {
+CoupledFlock FollowedFlock::Settle(const BatchModel& model, int iterations, double hopeless) {
   CoupledFlock coupled = Coupled(model);
-  coupled.Minimize(iterations);
+  coupled.Minimize(iterations, {.hopeless = hopeless - OfNoise()});
   Take(coupled);
   return coupled;
 }

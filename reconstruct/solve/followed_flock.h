@@ -7,6 +7,7 @@
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_FOLLOWED_FLOCK_H_
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,8 +28,13 @@ struct FollowedFlock {
   // What the problem has come to: forces, noise, and the least cost + n log(sd of the noise), of n
   // accelerations.
   void Take(const CoupledFlock& coupled);
-  // Goes on with what is known of forces and noise.
-  CoupledFlock Settle(const BatchModel& model, int iterations);
+  // Goes on with what is known of forces and noise; gives up where it will hardly become less
+  // improbable than `hopeless`.
+  CoupledFlock Settle(const BatchModel& model, int iterations,
+                      double hopeless = std::numeric_limits<double>::infinity());
+
+ private:
+  double OfNoise() const;  // what it adds to a cost
 };
 
 }  // namespace flocklift::internal
