@@ -170,7 +170,9 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   report.cuts = segments.cuts;
   report.pixel_sd = segments.pixel_sd;
   report.scale_from = ScaleSources(knowledge);
-  report.outlook = Describe(LookAhead(segments), knowledge);
+  Observability observability = LookAhead(segments);
+  observability.erratic &= is_batch && options.batch.erratic_flight;
+  report.outlook = Describe(observability, knowledge);
   if (segments.unusable > 0) {
     report.warnings.push_back(std::to_string(segments.unusable) +
                               " rows lie where the lens model sees nothing and were left out");

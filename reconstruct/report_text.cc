@@ -60,18 +60,26 @@ std::string DescribeSolution(const Knowledge& knowledge, const Segments& segment
   for (const Segment& segment : segments.segments) {
     for (const Sighting& s : segment.sightings) sizes |= s.log_size.has_value();
   }
-  constexpr double kStraight = 30 * 3.14159265358979323846 / 180;
-  const bool straight = MedianTurn(batch.paths) < kStraight;
   std::string text = "relative depth rests on ";
-  text += sizes ? "apparent size and image speed" : "image speed";
-  text += straight ? "; the paths are nearly straight, so perspective along them says little"
-                   : " and on perspective along curved paths";
-  if (knowledge.up_in_cam) text += "; level flight helps";
+  if (batch.report.erratic) {
+    text += sizes ? "apparent size" : "how wide the flock is";
+    text += "; animals keep no speed, which tells no more than how far the flock is";
+  } else {
+    constexpr double kStraight = 30 * 3.14159265358979323846 / 180;
+    const bool straight = MedianTurn(batch.paths) < kStraight;
+    text += sizes ? "apparent size and image speed" : "image speed";
+    text += straight ? "; the paths are nearly straight, so perspective along them says little"
+                     : " and on perspective along curved paths";
+    if (knowledge.up_in_cam) text += "; level flight helps";
+  }
   if (batch.report.stiff_boxes > 0.5) text += "; boxes are as large from every side";
   text += "; median relative sd " + Percent(report.relative_sd) + ", common scale " +
           Percent(report.scale_sd) + " (" + report.scale_from + ")";
   if (report.speed_by_sizes) text += "; " + SpeedBySizes(*report.speed_by_sizes);
-  if (report.dynamics) text += DescribeDynamics(*report.dynamics);
+  if (report.dynamics) {
+    text += batch.report.erratic ? "; forces left out: they are those of animals that fly on"
+                                 : DescribeDynamics(*report.dynamics);
+  }
   return text;
 }
 

@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "reconstruct/initialize/persistence.h"
+
 namespace flocklift {
 namespace {
 
@@ -71,6 +73,7 @@ Observability LookAhead(const Segments& segments) {
   result.image_turn = Median(turns);
   result.speed_change = Median(changes);
   result.sizes = seen > 0 ? sized / seen : 0;
+  result.erratic = IsErratic(segments.persistence);
   return result;
 }
 
@@ -78,6 +81,11 @@ std::string Describe(const Observability& o, const Knowledge& knowledge) {
   constexpr double kStraight = 30 * kDegree, kShort = 1.5;
   const double kMuchFaster = std::log(2.5);
   const bool sizes = knowledge.use_size && o.sizes > 0;
+  if (o.erratic) {
+    const std::string flight = "erratic flight, velocities forgotten within half a second: ";
+    return sizes ? flight + "relative depth rests on apparent size"
+                 : flight + "nothing tells relative depth but how wide the flock is";
+  }
   std::string text;
   if (o.duration < kShort) {
     text = "short tracks: relative depth rests on ";

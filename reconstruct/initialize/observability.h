@@ -4,7 +4,8 @@
 // What relative depth will rest on, told from the image alone, before anything is solved. Along a
 // path that turns, perspective compares near with far; how far the motion turns in the image says
 // how much of that there is. A straight transit has next to none: there, and in short tracks, only
-// equal speeds (image speed is v/z) and apparent size tell who is nearer.
+// equal speeds (image speed is v/z) and apparent size tell who is nearer; and only size where
+// animals keep no speed.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_INITIALIZE_OBSERVABILITY_H_
 #define FLOCKLIFT_RECONSTRUCT_INITIALIZE_OBSERVABILITY_H_
@@ -21,6 +22,7 @@ struct Observability {
   double image_turn = 0;    // median angle by which the image motion of a segment turns [rad]
   double speed_change = 0;  // median of log(fastest over slowest) in the image, along a segment
   double sizes = 0;         // share of the sightings that have one
+  bool erratic = false;     // animals keep no speed (persistence.h)
 };
 
 Observability LookAhead(const Segments& segments);

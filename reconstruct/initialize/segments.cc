@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "reconstruct/initialize/segments.h"
+#include "reconstruct/initialize/persistence.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -317,6 +318,7 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
     const double doubt = options.glitch_pixel_sd / camera.intrinsics.fx;
     CutJumps(options.jump, doubt, &result.segments, &result.cuts);
   }
+  result.persistence = PersistenceOf(result.segments);
   return result;
 }
 

@@ -64,6 +64,7 @@ struct Segments {
                                   // or far beside where the camera looks on average)
   bool has_shapes = false;        // sizes come from shapes
   BoxForm form;                   // of the boxes, also where sizes come from shapes
+  double persistence = 1;         // of the velocity of rays (persistence.h)
   // Places of a moving camera in every frame from the first on, reference axes [m]; empty: at rest.
   std::vector<Vec3d> camera_places;
   double fps = 0;  // frames per second of the places

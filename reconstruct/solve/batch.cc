@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "reconstruct/initialize/persistence.h"
 #include "reconstruct/solve/fingerprint.h"
 #include "reconstruct/solve/window_solver.h"
 #include "reconstruct/solve/window_store.h"
@@ -120,6 +121,7 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
       is_long ? checkpoint : std::filesystem::path{},
       is_long ? FingerprintOf(options, knowledge, segments, fps, refinement.fingerprint) : 0);
   result.report.converged = true;
+  result.report.erratic = options.erratic_flight && IsErratic(segments.persistence);
   for (const std::size_t w : OrderOf(known)) {
     const WindowPart part = PartOf(segments, windows[w], fps, first_frame);
     if (part.segments.segments.empty()) continue;

@@ -56,6 +56,7 @@ struct BatchReport {
   Uncertain size_ratio;          // posterior, relative to the wingspan's prior
   Uncertain lean;                // into turns (cost_functions/size.h), posterior
   Uncertain speed_against_size;  // log of (speed by the sizes over its prior's mean); sizes' sd
+  bool erratic = false;          // animals were taken to keep no speed (erratic_flight.h)
   double stiff_boxes = 0;        // probability that boxes do not follow the bodies in them
                                  // (size_model.h); 0 where no wingspan is known
   std::vector<std::pair<std::string, double>> spreads;  // estimated

@@ -27,6 +27,7 @@ struct BatchOptions {
   bool level_flight = true;
   bool shared_depth = true;
   bool flock_turn = true;
+  bool erratic_flight = true;
   bool estimate = true;
   double window = 12;
   double overlap = 3;
@@ -67,6 +68,9 @@ void Describe(Visitor& visit, BatchOptions& o) {
   visit("shared-depth", o.shared_depth, {}, "", "the flock is about as deep as it is wide");
   visit("flock-turn", o.flock_turn, {}, "",
         "the flock has an acceleration in common, of a strength that the data tell");
+  visit("erratic-flight", o.erratic_flight, {}, "",
+        "animals whose motion in the image is forgotten within half a second, as of insects in a "
+        "swarm, are not taken to keep their speed");
   visit("estimate", o.estimate, {}, "", "estimate the spreads from the data");
   visit("solve-window", o.window, {.low = 1, .high = 1e6}, "s",
         "longer sequences are solved in windows of about this length");

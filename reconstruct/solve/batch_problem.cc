@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reconstruct/cost_functions/acceleration.h"
+#include "reconstruct/cost_functions/erratic_flight.h"
 #include "reconstruct/cost_functions/level_flight.h"
 #include "reconstruct/cost_functions/size.h"
 #include "reconstruct/cost_functions/speed.h"
@@ -51,11 +52,20 @@ void ForEachKnotError(const BatchModel& model, const Bird& bird, const Eigen::Ve
     }
   }
 
-  const SpeedError speed{.rate = rate, .softening = bird.softening, .camera = camera};
-  take(Term::kSpeed, 0,
-       evaluate.template Of<1, 2>(
-           std::array{BorderScalar{bird.own[kOwnLogSpeed], kOwnLogSpeed}},
-           [&](const auto& q, const auto* x, auto* error) { speed.Of(q, x[0], error); })[0]);
+  const std::array mean_speed{BorderScalar{bird.own[kOwnLogSpeed], kOwnLogSpeed}};
+  if (model.erratic) {
+    const ErraticFlightError speed{.rate = rate, .softening = bird.softening, .camera = camera};
+    const auto both = evaluate.template Of<2, 2>(
+        mean_speed, [&](const auto& q, const auto* x, auto* error) { speed.Of(q, x[0], error); });
+    take(Term::kSpeed, 0, both[0]);
+    take(Term::kAlong, 0, both[1]);
+  } else {
+    const SpeedError speed{.rate = rate, .softening = bird.softening, .camera = camera};
+    take(Term::kSpeed, 0,
+         evaluate.template Of<1, 2>(mean_speed, [&](const auto& q, const auto* x, auto* error) {
+           speed.Of(q, x[0], error);
+         })[0]);
+  }
 
   if (model.use_climb && model.up_in_cam) {
     const LevelFlightError level{
@@ -97,13 +107,15 @@ void TakeMarkovRows(const BatchModel& model, const Bird& bird, const Eigen::Vect
   std::array<Rows, 3> acceleration = {Rows(Term::kAcceleration, s.acceleration, dt),
                                       Rows(Term::kAcceleration, s.acceleration, dt),
                                       Rows(Term::kAcceleration, s.acceleration, dt)};
-  Rows speed(Term::kSpeed, s.speed, dt), climb(Term::kClimb, s.climb, dt);
+  Rows speed(Term::kSpeed, s.speed, dt), along(Term::kAlong, s.along, dt);
+  Rows climb(Term::kClimb, s.climb, dt);
   Rows size(Term::kSize, s.size, dt), depth(Term::kDepth, s.depth, dt);
   for (int knot = 0; knot < bird.knots; ++knot) {
     ForEachKnotError<Evaluation>(model, bird, shared, kind, knot,
                                  [&](Term term, int axis, const auto& error) {
                                    Rows& rows = term == Term::kAcceleration ? acceleration[axis]
                                                 : term == Term::kSpeed      ? speed
+                                                : term == Term::kAlong      ? along
                                                 : term == Term::kClimb      ? climb
                                                 : term == Term::kSize       ? size
                                                                             : depth;

@@ -37,7 +37,8 @@ inline constexpr int kOwnLogSpeed = 0, kOwnSizeBias = 1, kOwnUnknowns = 2;
 // The spreads of the priors; estimated while solving.
 struct Spreads {
   MarkovProcess acceleration, speed, size, climb, depth;
-  MarkovProcess turn;  // the acceleration that the flock has in common
+  MarkovProcess turn;   // the acceleration that the flock has in common
+  MarkovProcess along;  // speed along the line of sight over the mean, in erratic flight
   double speed_between = 0.1;
   double size_between = 0.05;
 };
@@ -97,6 +98,7 @@ struct BatchModel {
   std::optional<Vec3d> up_in_cam;
   bool use_size = true, use_climb = true, use_depth = true;
   std::optional<double> log_near, log_far;
+  bool erratic = false;  // speeds are not kept (cost_functions/erratic_flight.h)
   FlockBody body;
   Uncertain flock_log_speed, size_ratio, log_trunk, log_up, lean, log_depth;
   std::optional<Belief> belief;  // instead of the scalars' priors

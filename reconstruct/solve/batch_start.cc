@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reconstruct/cost_functions/erratic_flight.h"
 #include "reconstruct/cost_functions/path.h"
 #include "reconstruct/cost_functions/size.h"
 #include "reconstruct/initialize/depth_search.h"
+#include "reconstruct/initialize/persistence.h"
 #include "reconstruct/initialize/triangulation.h"
 
 namespace flocklift::internal {
@@ -25,6 +27,22 @@ constexpr Uncertain kTrunkOfShapes{-1.2, 0.6}, kUpOfShapes{-1.6, 0.7};
 constexpr Uncertain kRatio{-0.2, 0.15};
 // How far they lean into their turns: 1 where lift alone carries weight and curve, 0 not at all.
 constexpr Uncertain kLeanIntoTurns{0.7, 0.5};
+
+// Velocities and accelerations last as long as the image says; where wings and trunk point is not
+// to be told from them, and images count as those of balls.
+void MakeErratic(double persistence, BatchModel* model) {
+  constexpr double kLeast = 0.05;
+  constexpr Uncertain kBall{0, 0.1};  // of logs of proportions
+  const double time = -kPersistenceLag / std::log(std::max(persistence, kLeast));
+  Spreads& s = model->spreads;
+  model->erratic = true;
+  model->up_in_cam.reset();
+  model->use_climb = false;
+  model->log_trunk = model->log_up = kBall;
+  s.speed = {kLogAcrossSd, std::min(s.speed.time, time)};
+  s.along = {kAlongSd, s.speed.time};
+  s.acceleration.time = std::min(s.acceleration.time, time);
+}
 
 // X and Y of the control points: reprojection and white accelerations, linear.
 void SmoothImagePath(const BatchModel& model, Bird* bird) {
@@ -102,23 +120,25 @@ void BinSizes(const BatchModel& model, Bird* bird) {
 // Of an animal of which nothing is known but what is seen.
 DepthSearchPriors FirstPriors(const BatchModel& model, const ScaleGuess& guess) {
   const Spreads& s = model.spreads;
-  return {
-      .log_speed = guess.log_speed,
-      .speed_sd = std::hypot(s.speed_between, s.speed.sd, std::min(model.flock_log_speed.sd, 0.3)),
-      .speed_time = s.speed.time,
-      .acceleration_sd = s.acceleration.sd,
-      .acceleration_time = s.acceleration.time,
-      .log_width = guess.log_width,
-      .size_sd = std::hypot(s.size.sd, s.size_between, 0.1),
-      .size_time = s.size.time,
-      .log_depth = guess.log_depth,
-      .depth_sd = model.use_depth ? std::max(1.5 * s.depth.sd, 0.1) : 1,
-      .depth_time = s.depth.time,
-      .climb_sd = s.climb.sd,
-      .climb_time = s.climb.time,
-      .up_in_cam = model.use_climb ? model.up_in_cam : std::nullopt,
-      .log_near = guess.log_near,
-      .log_far = guess.log_far};
+  constexpr double kAnySpeed = 1e3;
+  return {.log_speed = guess.log_speed,
+          .speed_sd = model.erratic ? kAnySpeed
+                                    : std::hypot(s.speed_between, s.speed.sd,
+                                                 std::min(model.flock_log_speed.sd, 0.3)),
+          .speed_time = s.speed.time,
+          .acceleration_sd = s.acceleration.sd,
+          .acceleration_time = s.acceleration.time,
+          .log_width = guess.log_width,
+          .size_sd = std::hypot(s.size.sd, s.size_between, 0.1),
+          .size_time = s.size.time,
+          .log_depth = guess.log_depth,
+          .depth_sd = model.use_depth ? std::max(1.5 * s.depth.sd, 0.1) : 1,
+          .depth_time = s.depth.time,
+          .climb_sd = s.climb.sd,
+          .climb_time = s.climb.time,
+          .up_in_cam = model.use_climb ? model.up_in_cam : std::nullopt,
+          .log_near = guess.log_near,
+          .log_far = guess.log_far};
 }
 
 void GridDepth(const BatchModel& model, const DepthSearchPriors& priors, Bird* bird) {
@@ -224,6 +244,9 @@ BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
   model.log_trunk = segments.has_shapes ? kTrunkOfShapes : kTrunkOfBoxes;
   model.log_up = segments.has_shapes ? kUpOfShapes : kUpOfBoxes;
   model.lean = kLeanIntoTurns;
+  if (options.erratic_flight && IsErratic(segments.persistence)) {
+    MakeErratic(segments.persistence, &model);
+  }
   model.log_depth = {guess.log_depth, kVague};
   if (knowledge.near && knowledge.far) {
     // Anywhere between them: the sd of a uniform distribution.

@@ -174,6 +174,7 @@ BatchResult SolveDynamics(const DynamicsOptions& options, const BatchOptions& ba
                           const std::filesystem::path& checkpoint) {
   CheckOptions(options);
   const WindowRefiner refine = [&](const WindowToRefine& window) {
+    if (window.state.model.erratic) return;  // the flock's forces are of animals that fly on
     Test test;
     FollowedFlock flock;
     for (int fold = 0; fold == 0 || test.WantsMore(fold, options.hidden); ++fold) {

@@ -35,6 +35,8 @@ const char* NameOf(Term term) {
       return "common acceleration";
     case Term::kView:
       return "second camera";
+    case Term::kAlong:
+      return "speed along the line of sight";
   }
   return "";
 }
@@ -47,6 +49,7 @@ double HuberLimit(Term term) {
     case Term::kClimb:
     case Term::kAnchor:
     case Term::kView:
+    case Term::kAlong:
       return 3;
     case Term::kSize:
       return 2;

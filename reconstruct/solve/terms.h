@@ -27,8 +27,9 @@ enum class Term {
   kAnyVelocity,
   kTurn,
   kView,
+  kAlong,
 };
-inline constexpr int kTermCount = 13;
+inline constexpr int kTermCount = 14;
 const char* NameOf(Term term);
 
 // Residuals beyond this many sds count linearly (Huber's loss); 0: never.

@@ -183,7 +183,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
     const BatchModel& model = state.model;
     const SizeModel usual{model.size_ratio, model.log_trunk, model.log_up};
     const Uncertain usual_lean = model.lean;
-    const bool size_is_seen = model.use_size && !model.belief;
+    const bool size_is_seen = model.use_size && !model.belief && !model.erratic;
     const double wingspan_sd =
         knowledge.wingspan ? first_guess.size_between : std::numeric_limits<double>::infinity();
     const bool size_spread = knowledge.wingspan && knowledge.speed && model.use_size;
@@ -199,7 +199,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
         if (knowledge.wingspan) report.stiff_boxes = stiff;
       }
       minimize(kSpreadIterations, roughly);
-      if (round == kFirstSearch || round == kSecondSearch) {
+      if (!model.erratic && (round == kFirstSearch || round == kSecondSearch)) {
         TryOtherDepths(guess, &state, &solver);
       }
     }

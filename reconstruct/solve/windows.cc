@@ -39,6 +39,7 @@ WindowPart PartOf(const Segments& segments, const Window& window, double fps, in
   part.segments.pixel_sd = segments.pixel_sd;
   part.segments.has_shapes = segments.has_shapes;
   part.segments.form = segments.form;
+  part.segments.persistence = segments.persistence;
   part.segments.fps = segments.fps;
   if (static_cast<std::size_t>(skipped) < segments.camera_places.size()) {
     part.segments.camera_places.assign(segments.camera_places.begin() + skipped,

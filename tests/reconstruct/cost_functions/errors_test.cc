@@ -3,14 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "reconstruct/cost_functions/acceleration.h"
+#include "reconstruct/cost_functions/erratic_flight.h"
 #include "reconstruct/cost_functions/level_flight.h"
 #include "reconstruct/cost_functions/markov.h"
 #include "reconstruct/cost_functions/reprojection.h"
 #include "reconstruct/cost_functions/size.h"
 #include "reconstruct/cost_functions/speed.h"
+#include "simulate/core/rng.h"
 #include "tests/reconstruct/cost_functions/gradient_check.h"
 
 namespace flocklift {
@@ -69,6 +74,41 @@ TEST(SpeedError, StandstillIsFinite) {
   double e;
   error(Straight({0.1, 0.1, 2}, {}).data(), 0.0, &e);
   EXPECT_NEAR(e, 2 + std::log(1e-3), 1e-9);
+}
+
+// 10 m away on the axis, 3 m/s across and 2 m/s away, of an animal whose mean is 5 m/s.
+TEST(ErraticFlightError, ByHand) {
+  const ErraticFlightError error{.rate = 1, .softening = 1e-6};
+  double e[2];
+  error(Straight({0, 0, std::log(10.0)}, {0.3, 0, 0.2}).data(), std::log(5.0), e);
+  EXPECT_NEAR(e[0], std::log(0.6) + 0.409, 1e-9);
+  EXPECT_NEAR(e[1], 0.4, 1e-9);
+  std::array<double, 10> c{};
+  std::copy_n(SomePath().begin(), 9, c.begin());
+  c[9] = std::log(10.0);
+  ExpectGradient<2, 10>([&](const auto* p, auto* r) { error(p, p[9], r); }, c);
+}
+
+// Velocities that are normal in every direction have errors of mean 0 and these sds.
+TEST(ErraticFlightError, KnowsWhatIsUsual) {
+  const ErraticFlightError error{.rate = 1, .softening = 1e-6};
+  const double sd = 0.02, mean_speed = 10 * sd * std::sqrt(8 / std::numbers::pi);
+  Rng rng(3);
+  constexpr int kCount = 20000;
+  double sum[2] = {}, squares[2] = {};
+  for (int k = 0; k < kCount; ++k) {
+    const Vec3d w{sd * rng.Normal(), sd * rng.Normal(), sd * rng.Normal()};
+    double e[2];
+    error(Straight({0, 0, std::log(10.0)}, w).data(), std::log(mean_speed), e);
+    for (int a = 0; a < 2; ++a) {
+      sum[a] += e[a] / kCount;
+      squares[a] += e[a] * e[a] / kCount;
+    }
+  }
+  EXPECT_NEAR(sum[0], 0, 0.02);
+  EXPECT_NEAR(sum[1], 0, 0.02);
+  EXPECT_NEAR(std::sqrt(squares[0]), kLogAcrossSd, 0.02);
+  EXPECT_NEAR(std::sqrt(squares[1]), kAlongSd, 0.02);
 }
 
 // Up is -y of the camera; 0.3 across and -0.4 up per second climbs with sine 0.8.

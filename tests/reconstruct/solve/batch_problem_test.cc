@@ -59,6 +59,56 @@ class BatchProblemTest : public testing::Test {
     return residuals;
   }
 
+  // Of rows of so many kinds of terms.
+  void ExpectDerivatives(std::size_t kinds) {
+    std::vector<ResidualRow> rows;
+    std::set<Term> terms;
+    ForEachRow(model_, bird_, shared_, true, [&](Term term, const ResidualRow& row) {
+      rows.push_back(row);
+      terms.insert(term);
+    });
+    EXPECT_EQ(terms.size(), kinds);
+    const std::vector<double> residuals = Residuals();
+    ASSERT_EQ(rows.size(), residuals.size());
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      EXPECT_NEAR(rows[r].residual, residuals[r], 1e-12 * (1 + std::abs(residuals[r])));
+    }
+
+    const auto check = [&](double* unknown, const auto& derivative_of) {
+      constexpr double kStep = 1e-6;
+      const double value = *unknown;
+      *unknown = value + kStep;
+      const std::vector<double> after = Residuals();
+      *unknown = value - kStep;
+      const std::vector<double> before = Residuals();
+      *unknown = value;
+      for (std::size_t r = 0; r < rows.size(); ++r) {
+        const double numeric = (after[r] - before[r]) / (2 * kStep);
+        EXPECT_NEAR(derivative_of(rows[r]), numeric, 1e-4 * (1 + std::abs(numeric))) << r;
+      }
+    };
+    for (int i = 0; i < bird_.unknowns(); ++i) {
+      check(&bird_.path[static_cast<std::size_t>(i)], [i](const ResidualRow& row) {
+        const int a = i - row.first;
+        return a >= 0 && a < 12 ? row.path[static_cast<std::size_t>(a)] : 0.0;
+      });
+    }
+    const auto by_border = [](int index) {
+      return [index](const ResidualRow& row) {
+        for (int a = 0; a < row.border_count; ++a) {
+          if (row.border[static_cast<std::size_t>(a)].first == index) {
+            return row.border[static_cast<std::size_t>(a)].second;
+          }
+        }
+        return 0.0;
+      };
+    };
+    for (int i = 0; i < kOwnUnknowns; ++i) {
+      check(&bird_.own[static_cast<std::size_t>(i)], by_border(i));
+    }
+    for (int i = 0; i < model_.shared(); ++i) check(&shared_[i], by_border(kOwnUnknowns + i));
+  }
+
   FlockSpec flock_{.count = 3, .frames = 40};
   Segments segments_;
   Knowledge knowledge_;
@@ -68,52 +118,13 @@ class BatchProblemTest : public testing::Test {
 };
 
 TEST_F(BatchProblemTest, EveryDerivativeMatchesNumericDifferences) {
-  std::vector<ResidualRow> rows;
-  std::set<Term> terms;
-  ForEachRow(model_, bird_, shared_, true, [&](Term term, const ResidualRow& row) {
-    rows.push_back(row);
-    terms.insert(term);
-  });
-  EXPECT_EQ(terms.size(), kTermCount - 1u);  // the common acceleration is the flock's
-  const std::vector<double> residuals = Residuals();
-  ASSERT_EQ(rows.size(), residuals.size());
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    EXPECT_NEAR(rows[r].residual, residuals[r], 1e-12 * (1 + std::abs(residuals[r])));
-  }
+  ExpectDerivatives(kTermCount - 2u);  // the common acceleration is the flock's
+}
 
-  const auto check = [&](double* unknown, const auto& derivative_of) {
-    constexpr double kStep = 1e-6;
-    const double value = *unknown;
-    *unknown = value + kStep;
-    const std::vector<double> after = Residuals();
-    *unknown = value - kStep;
-    const std::vector<double> before = Residuals();
-    *unknown = value;
-    for (std::size_t r = 0; r < rows.size(); ++r) {
-      const double numeric = (after[r] - before[r]) / (2 * kStep);
-      EXPECT_NEAR(derivative_of(rows[r]), numeric, 1e-4 * (1 + std::abs(numeric))) << r;
-    }
-  };
-  for (int i = 0; i < bird_.unknowns(); ++i) {
-    check(&bird_.path[static_cast<std::size_t>(i)], [i](const ResidualRow& row) {
-      const int a = i - row.first;
-      return a >= 0 && a < 12 ? row.path[static_cast<std::size_t>(a)] : 0.0;
-    });
-  }
-  const auto by_border = [](int index) {
-    return [index](const ResidualRow& row) {
-      for (int a = 0; a < row.border_count; ++a) {
-        if (row.border[static_cast<std::size_t>(a)].first == index) {
-          return row.border[static_cast<std::size_t>(a)].second;
-        }
-      }
-      return 0.0;
-    };
-  };
-  for (int i = 0; i < kOwnUnknowns; ++i) {
-    check(&bird_.own[static_cast<std::size_t>(i)], by_border(i));
-  }
-  for (int i = 0; i < model_.shared(); ++i) check(&shared_[i], by_border(kOwnUnknowns + i));
+TEST_F(BatchProblemTest, AlsoInErraticFlight) {
+  model_.erratic = true;
+  model_.spreads.along = {0.6, 0.2};
+  ExpectDerivatives(kTermCount - 1u);
 }
 
 // Of the priors' gradient and matrix, at the present place.
