@@ -16,7 +16,8 @@ namespace {
 constexpr std::array<double, 2> kSteps = {-0.08, 0.08};  // of the log depth
 constexpr int kAlone = 8, kTogether = 20;                // iterations, at most
 constexpr double kGain = 0.1;                            // of log probability that counts
-constexpr double kElsewhere = 0.015;                     // rms of the log depth
+constexpr std::size_t kFew = 30;
+constexpr double kElsewhere = 0.015;  // rms of the log depth
 
 // Another place for an animal, improbable by so much as long as all others stay.
 struct Place {
@@ -71,7 +72,8 @@ int MoveAlone(const BatchModel& model, FollowedFlock* flock, std::vector<Place>*
 }  // namespace
 
 int MoveDepths(const BatchModel& model, FollowedFlock* flock) {
-  constexpr std::size_t kMost = 8;  // places that the whole flock settles for
+  // Places that the whole flock settles for, in whose steps all animals take part.
+  const std::size_t most = flock->birds.size() > kFew ? 4 : 8;
   std::vector<Place> places;
   const FollowedFlock before = *flock;
   int moved = MoveAlone(model, flock, &places);
@@ -82,7 +84,7 @@ int MoveDepths(const BatchModel& model, FollowedFlock* flock) {
   }
   std::stable_sort(places.begin(), places.end(),
                    [](const Place& a, const Place& b) { return a.worse < b.worse; });
-  places.resize(std::min(places.size(), kMost));
+  places.resize(std::min(places.size(), most));
   for (const Place& place : places) {
     FollowedFlock other = *flock;
     other.birds[place.animal].path = place.bird.path;
