@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the flocklift authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where the batch method starts: the model for what the user knows, and every animal's path with
-// its image positions smoothed and its depth searched on a grid.
+// Where the batch method starts: every animal's path with its image positions smoothed and its
+// depth searched on a grid.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_START_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_BATCH_START_H_
@@ -11,17 +11,6 @@
 #include "reconstruct/solve/batch_problem.h"
 
 namespace flocklift::internal {
-
-BatchModel MakeModel(const BatchOptions& options, const Knowledge& knowledge,
-                     const Segments& segments, const ScaleGuess& guess,
-                     const std::optional<Belief>& belief, double fps);
-
-// The guess brought to the speed that another part of the sequence has found.
-ScaleGuess WithBelief(const ScaleGuess& guess, const Knowledge& knowledge,
-                      const std::optional<Belief>& belief);
-
-// The flock's unknowns at the means of their priors.
-Eigen::VectorXd StartOfShared(const BatchModel& model);
 
 // Where a time is on the path (of the model, the knots' interval counts).
 Bird::Place PlaceAt(const BatchModel& model, const Bird& bird, double time);

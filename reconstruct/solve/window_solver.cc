@@ -12,6 +12,7 @@
 
 #include "reconstruct/cost_functions/path.h"
 #include "reconstruct/cost_functions/size.h"
+#include "reconstruct/solve/batch_model.h"
 #include "reconstruct/solve/batch_start.h"
 #include "reconstruct/solve/body_fit.h"
 #include "reconstruct/solve/box_of_body.h"

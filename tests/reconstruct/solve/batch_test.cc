@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "reconstruct/cost_functions/body_image.h"
+#include "reconstruct/solve/batch_model.h"
 #include "reconstruct/solve/batch_start.h"
 #include "tests/reconstruct/circling_flock.h"
 

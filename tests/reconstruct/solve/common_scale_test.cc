@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "reconstruct/solve/batch_model.h"
 #include "reconstruct/solve/batch_start.h"
 #include "tests/reconstruct/circling_flock.h"
 
