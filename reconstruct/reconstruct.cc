@@ -104,6 +104,24 @@ Trajectories Assemble(const ReferenceAxes& axes, const Knowledge& knowledge,
   return result;
 }
 
+bool IsBatch(const ReconstructOptions& options) {
+  return options.method == ReconstructMethod::kBatch ||
+         options.method == ReconstructMethod::kDynamics;
+}
+
+SegmentOptions SegmentOptionsOf(const ReconstructOptions& options, const Knowledge& knowledge) {
+  return {.min_pixel_sd = options.batch.pixel_sd,
+          .jump = IsBatch(options) ? options.batch.jump : 0,
+          .use_size = knowledge.use_size};
+}
+
+std::string OutlookOf(const ReconstructOptions& options, const Segments& segments,
+                      const Knowledge& knowledge) {
+  Observability observability = LookAhead(segments);
+  observability.erratic &= IsBatch(options) && options.batch.erratic_flight;
+  return Describe(observability, knowledge);
+}
+
 }  // namespace
 
 const char* NameOf(ReconstructMethod method) {
@@ -134,10 +152,8 @@ std::string LookAhead(const ReconstructOptions& options, const Tracks& tracks, c
   const FrameSpan span = SpanOf(tracks);
   const Knowledge knowledge =
       InReferenceAxes(options, camera, ReferenceAxes(camera, span.first, span.last));
-  const Segments segments =
-      MakeSegments({.min_pixel_sd = options.batch.pixel_sd, .use_size = knowledge.use_size}, tracks,
-                   camera, fps);
-  return Describe(LookAhead(segments), knowledge);
+  const Segments segments = MakeSegments(SegmentOptionsOf(options, knowledge), tracks, camera, fps);
+  return OutlookOf(options, segments, knowledge);
 }
 
 ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& tracks,
@@ -148,11 +164,8 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   const ReferenceAxes axes(camera, span.first, span.last);
   const Knowledge knowledge = InReferenceAxes(options, camera, axes);
   CheckKnowledge(knowledge);
-  const bool is_batch =
-      options.method == ReconstructMethod::kBatch || options.method == ReconstructMethod::kDynamics;
-  const SegmentOptions segment_options{.min_pixel_sd = options.batch.pixel_sd,
-                                       .jump = is_batch ? options.batch.jump : 0,
-                                       .use_size = knowledge.use_size};
+  const bool is_batch = IsBatch(options);
+  const SegmentOptions segment_options = SegmentOptionsOf(options, knowledge);
   Segments segments = MakeSegments(segment_options, tracks, camera, fps);
   ReconstructResult result;
   ReconstructReport& report = result.report;
@@ -170,9 +183,7 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   report.cuts = segments.cuts;
   report.pixel_sd = segments.pixel_sd;
   report.scale_from = ScaleSources(knowledge);
-  Observability observability = LookAhead(segments);
-  observability.erratic &= is_batch && options.batch.erratic_flight;
-  report.outlook = Describe(observability, knowledge);
+  report.outlook = OutlookOf(options, segments, knowledge);
   if (segments.unusable > 0) {
     report.warnings.push_back(std::to_string(segments.unusable) +
                               " rows lie where the lens model sees nothing and were left out");
@@ -214,6 +225,7 @@ ReconstructResult Reconstruct(const ReconstructOptions& options, const Tracks& t
   report.final_cost = batch.report.final_cost;
   report.iterations = batch.report.iterations;
   report.converged = batch.report.converged;
+  report.erratic = batch.report.erratic;
   report.scale_sd = batch.report.scale_sd;
   report.relative_sd = MedianRelativeSd(batch.paths, report.scale_sd);
   report.terms = batch.report.terms;

@@ -55,9 +55,10 @@ struct ReconstructReport {
   double initial_cost = 0, final_cost = 0;
   int iterations = 0;
   bool converged = false;
-  double scale_sd = 0;        // relative sd of the common scale; 0: the method does not know
-  std::string scale_from;     // which priors fixed it
-  std::string outlook;        // the same before solving
+  bool erratic = false;    // animals were taken to keep no speed (cost_functions/erratic_flight.h)
+  double scale_sd = 0;     // relative sd of the common scale; 0: the method does not know
+  std::string scale_from;  // which priors fixed it
+  std::string outlook;     // the same before solving
   std::string observability;  // in words: what relative depth rests on
   double relative_sd = 0;     // median relative sd of a depth, common scale taken out
   // Where speed and wingspan are both stated: log of the speed that the sizes tell over the stated

@@ -63,7 +63,7 @@ std::string DescribeSolution(const Knowledge& knowledge, const Segments& segment
   std::string text = "relative depth rests on ";
   if (batch.report.erratic) {
     text += sizes ? "apparent size" : "how wide the flock is";
-    text += "; animals keep no speed, which tells no more than how far the flock is";
+    text += "; animals keep no speed: image speed tells how far the flock is, not who is nearer";
   } else {
     constexpr double kStraight = 30 * 3.14159265358979323846 / 180;
     const bool straight = MedianTurn(batch.paths) < kStraight;

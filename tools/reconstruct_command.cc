@@ -94,7 +94,7 @@ nlohmann::ordered_json AsJson(const ReconstructReport& report) {
       {"segments", report.segments},           {"cuts", report.cuts},
       {"pixel_sd", report.pixel_sd},           {"initial_cost", report.initial_cost},
       {"final_cost", report.final_cost},       {"iterations", report.iterations},
-      {"converged", report.converged}};
+      {"converged", report.converged},         {"erratic", report.erratic}};
   for (const auto& [name, value] : report.spreads) json["spreads"][name] = value;
   if (report.speed_by_sizes) {
     json["speed_by_sizes"] = {{"log_over_stated", report.speed_by_sizes->mean},
@@ -220,7 +220,8 @@ void RunReconstruct(const ReconstructCommand& command, const CommonOptions& comm
                                            : "iterations");
   ReconstructResult result =
       Reconstruct(options, tracks, camera, fps, common.ThreadCount(), progress);
-  if (command.method == "auto" && options.method == ReconstructMethod::kBatch) {
+  if (command.method == "auto" && options.method == ReconstructMethod::kBatch &&
+      !result.report.erratic) {
     result.report.observability += fmt::format(
         "; forces untried with more than {} rows (--method dynamics tries them)", kDynamicsRows);
   }

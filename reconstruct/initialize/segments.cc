@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "reconstruct/initialize/segments.h"
-#include "reconstruct/initialize/persistence.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "reconstruct/initialize/persistence.h"
 #include "reconstruct/initialize/reference_axes.h"
 #include "simulate/camera/projection.h"
 #include "simulate/core/check.h"

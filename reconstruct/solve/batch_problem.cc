@@ -144,7 +144,7 @@ void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd
   TakeReprojections(bird, derivatives, take);
   TakeViews(bird, take);
   const auto take_markov =
-      derivatives ? TakeMarkovRows<ErrorDerivatives> : TakeMarkovRows<ErrorValues>;
+      derivatives ? TakeMarkovRows<SlopesAtKnot> : TakeMarkovRows<ValuesAtKnot>;
   take_markov(model, bird, shared, kind, take);
   TakeAnchors(bird, take);
   TakeBounds(model, bird, take);
@@ -155,13 +155,13 @@ void ForEachRow(const BatchModel& model, const Bird& bird, const Eigen::VectorXd
 void ForEachError(const BatchModel& model, const Bird& bird, const Eigen::VectorXd& shared,
                   const RowSink& take) {
   for (int knot = 0; knot < bird.knots; ++knot) {
-    ForEachKnotError<ErrorDerivatives>(model, bird, shared, RowKind::kAll, knot,
-                                       [&](Term term, int /*axis*/, const ErrorSlopes& error) {
-                                         ResidualRow row;
-                                         row.first = 3 * knot;
-                                         error.AddTo(1, 0, &row);
-                                         take(term, row);
-                                       });
+    ForEachKnotError<SlopesAtKnot>(model, bird, shared, RowKind::kAll, knot,
+                                   [&](Term term, int /*axis*/, const ErrorSlopes& error) {
+                                     ResidualRow row;
+                                     row.first = 3 * knot;
+                                     error.AddTo(1, 0, &row);
+                                     take(term, row);
+                                   });
   }
 }
 

@@ -34,7 +34,7 @@ inline constexpr double kTurnKnotTime = 2;   // [s]
 // An animal's own unknowns.
 inline constexpr int kOwnLogSpeed = 0, kOwnSizeBias = 1, kOwnUnknowns = 2;
 
-// The spreads of the priors; estimated while solving.
+// The spreads of the priors; estimated while solving, but for `along`.
 struct Spreads {
   MarkovProcess acceleration, speed, size, climb, depth;
   MarkovProcess turn;   // the acceleration that the flock has in common

@@ -159,9 +159,10 @@ Bird WithSightings(const BatchModel& model, const Segment& segment, const Bird& 
   Bird bird = solved;
   bird.segment = &segment;
   bird.places.clear();
+  bird.view_places.clear();
   for (const Sighting& s : segment.sightings) bird.places.push_back(PlaceAt(model, bird, s.time));
+  for (const View& v : segment.views) bird.view_places.push_back(PlaceAt(model, bird, v.time));
   BinSizes(model, &bird);
-  bird.curve = solved.curve;
   SmoothImagePath(model, &bird);
   return bird;
 }
@@ -206,8 +207,7 @@ Bird StartBird(const BatchModel& model, const Knowledge& knowledge, const ScaleG
   bird.reference_depth = std::exp(guess.log_depth);
   bird.softening = 0.05 * std::exp(guess.log_speed - guess.log_depth);
   for (const Sighting& s : sightings) bird.places.push_back(PlaceAt(model, bird, s.time));
-  for (const View& view : segment.views)
-    bird.view_places.push_back(PlaceAt(model, bird, view.time));
+  for (const View& v : segment.views) bird.view_places.push_back(PlaceAt(model, bird, v.time));
   for (const Anchor& anchor : knowledge.anchors) {
     if (anchor.id != segment.id || anchor.frame < sightings.front().frame ||
         anchor.frame > sightings.back().frame) {

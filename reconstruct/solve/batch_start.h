@@ -20,7 +20,7 @@ Bird StartBird(const BatchModel& model, const Knowledge& knowledge, const ScaleG
                const Segment& segment, double fps, int first_frame);
 
 // A solved animal at the same knots with other sightings: its depths and what else is known of it
-// stay, the image path is smoothed anew.
+// stay, the image path is smoothed anew. It has no curves yet.
 Bird WithSightings(const BatchModel& model, const Segment& segment, const Bird& solved);
 
 // The depth is searched anew by what is known of the animal and the flock by now. Its speed and

@@ -255,8 +255,10 @@ bool CoupledFlock::Minimize(int max_iterations, const Effort& effort) {
     if (candidate < cost) {
       const double fall = cost - candidate;
       cost = candidate;
-      const double rho = 2 * fall / promised - 1;
-      damping = std::max(std::max(0.1, 1 - rho * rho * rho) * damping, kLeastDamping);
+      // Less where the step kept what the damped model promised of it (Nielsen, "Damping parameter
+      // in Marquardt's method", 1999).
+      const double kept = 2 * fall / promised - 1;
+      damping = std::max(std::max(0.1, 1 - kept * kept * kept) * damping, kLeastDamping);
       linearized = false;
       if (fall < effort.enough * static_cast<double>(birds_.size())) return true;
       if (cost - (max_iterations - iteration - 1) * fall > effort.hopeless) return false;

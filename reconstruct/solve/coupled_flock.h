@@ -37,7 +37,8 @@ namespace flocklift::internal {
 struct Effort {
   double enough = 0.1;  // fall of the cost that counts, for each animal
   GradientStop step{.share = 1e-2, .most = 200};
-  // A cost that falls of the last size, in all iterations that are left, would not bring below.
+  // Give up once falls as large as the last one, in every iteration that is left, could not bring
+  // the cost below this.
   double hopeless = std::numeric_limits<double>::infinity();
 };
 

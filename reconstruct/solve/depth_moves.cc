@@ -72,7 +72,7 @@ int MoveAlone(const BatchModel& model, FollowedFlock* flock, std::vector<Place>*
 }  // namespace
 
 int MoveDepths(const BatchModel& model, FollowedFlock* flock) {
-  // Places that the whole flock settles for, in whose steps all animals take part.
+  // Places that the whole flock settles for: each takes time with the number of animals.
   const std::size_t most = flock->birds.size() > kFew ? 4 : 8;
   std::vector<Place> places;
   const FollowedFlock before = *flock;

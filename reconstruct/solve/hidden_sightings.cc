@@ -41,6 +41,11 @@ HiddenSightings::HiddenSightings(double share, double duration, double fps,
       }
     }
     close();
+    // What a second camera sees meanwhile would give the place away.
+    std::erase_if(rest_.segments[i].views, [&](const View& view) {
+      const int into = (static_cast<int>(std::lround(view.time * fps)) + shift) % period;
+      return into < frames;
+    });
     kept = std::move(rest);
     rest_.rows -= static_cast<int>(all.size() - kept.size());
     count_ += static_cast<long>(all.size() - kept.size());

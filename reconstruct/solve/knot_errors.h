@@ -63,10 +63,10 @@ struct BorderScalar {
 
 // Evaluate functors error(state, scalars, errors) for `Size` errors at a knot. The path's state has
 // `Orders` times three entries that count: x/z, y/z, log z, their slopes, and their curves.
-class ErrorValues {
+class ValuesAtKnot {
  public:
   using Error = ErrorValue;
-  ErrorValues(const double* control_points, double rate) : q_(StateAtKnot(control_points, rate)) {}
+  ValuesAtKnot(const double* control_points, double rate) : q_(StateAtKnot(control_points, rate)) {}
 
   template <int Size, int Orders, std::size_t Extra, typename Functor>
   std::array<Error, Size> Of(const std::array<BorderScalar, Extra>& extra,
@@ -87,10 +87,10 @@ class ErrorValues {
 
 // Derivatives by the few entries of the state are cheaper than by the control points, in which it
 // is linear (path.h).
-class ErrorDerivatives {
+class SlopesAtKnot {
  public:
   using Error = ErrorSlopes;
-  ErrorDerivatives(const double* control_points, double rate)
+  SlopesAtKnot(const double* control_points, double rate)
       : q_(StateAtKnot(control_points, rate)), rate_(rate) {}
 
   template <int Size, int Orders, std::size_t Extra, typename Functor>

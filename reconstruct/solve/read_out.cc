@@ -106,13 +106,14 @@ void CollectTerms(const BatchState& state, BatchReport* report) {
         {NameOf(static_cast<Term>(k)), counts[k], std::sqrt(squares[k] / n), outliers[k] / n});
   }
   const Spreads& s = state.model.spreads;
-  report->spreads = {{"acceleration [m/s^2]", s.acceleration.sd},
-                     {"speed between animals", s.speed_between},
-                     {"speed over time", s.speed.sd},
-                     {"size between animals", s.size_between},
-                     {"size over time", s.size.sd},
-                     {"sine of climb", s.climb.sd},
-                     {"log depth", s.depth.sd}};
+  report->spreads = {
+      {"acceleration [m/s^2]", s.acceleration.sd},
+      {"speed between animals", s.speed_between},
+      {state.model.erratic ? "log speed across the line of sight" : "speed over time", s.speed.sd},
+      {"size between animals", s.size_between},
+      {"size over time", s.size.sd},
+      {"sine of climb", s.climb.sd},
+      {"log depth", s.depth.sd}};
   if (state.model.turn.knots > 0) {
     report->spreads.push_back({"common acceleration [m/s^2]", s.turn.sd});
   }

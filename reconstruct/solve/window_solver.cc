@@ -248,6 +248,7 @@ BatchState SolveAgain(const BatchState& solved, const Segments& segments, int ma
   for (std::size_t i = 0; i < solved.birds.size(); ++i) {
     state.birds.push_back(WithSightings(state.model, segments.segments[i], solved.birds[i]));
   }
+  UpdateCurves(state.model, &state.birds);
   int iterations = 0;
   BatchSolver(&state, threads).Minimize(max_iterations, Finally(state.birds), &iterations);
   return state;

@@ -60,6 +60,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
 
 // The batch solution for other sightings of the same animals, their first and last among them,
 // with the spreads and from the depths of a solution: far cheaper than from nothing.
+// Its birds point into `segments`.
 BatchState SolveAgain(const BatchState& solved, const Segments& segments, int max_iterations,
                       int threads);
 

@@ -105,6 +105,21 @@ TEST(ErraticFlight, SizesTellDepths) {
   EXPECT_THAT(outlook, testing::HasSubstr("forces left out"));
 }
 
+// Before anything is solved, and only where it will be solved so.
+TEST(ErraticFlight, IsToldBeforehand) {
+  const Camera camera = WatchingCamera();
+  const Tracks tracks = Observe(kSpec, {}, Swarm(), camera);
+  ReconstructOptions options;
+  options.knowledge.speed = Uncertain{kSpec.speed, 0.1 * kSpec.speed};
+  const auto outlook = [&] { return LookAhead(options, tracks, camera, kSpec.fps); };
+  EXPECT_THAT(outlook(), testing::HasSubstr("erratic flight"));
+  options.method = ReconstructMethod::kCobyla;
+  EXPECT_THAT(outlook(), testing::Not(testing::HasSubstr("erratic")));
+  options.method = ReconstructMethod::kBatch;
+  options.batch.erratic_flight = false;
+  EXPECT_THAT(outlook(), testing::Not(testing::HasSubstr("erratic")));
+}
+
 // Nothing tells depths then, and it is known. Animals taken to keep their speed fly along the line
 // of sight wherever they slow down across it.
 TEST(ErraticFlight, WithoutSizesNothingIsMadeUp) {

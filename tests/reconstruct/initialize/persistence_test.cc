@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "simulate/core/rng.h"
 
@@ -49,9 +51,9 @@ TEST(Persistence, OfCirclesByHand) {
   }
 }
 
-// Noise as large as the motion of a quarter of a second is taken out.
+// Noise of a third of the motion of a quarter of a second is taken out.
 TEST(Persistence, DoesNotTakeNoiseForMotion) {
-  const auto segments = Seen(0.003, [](double time, Id) { return Circle(1, time); });
+  const auto segments = Seen(0.0015, [](double time, Id) { return Circle(1, time); });
   EXPECT_NEAR(PersistenceOf(segments), std::cos(kPersistenceLag), 0.1);
 }
 
@@ -77,11 +79,27 @@ TEST(Persistence, OfInsectsIsSmall) {
   EXPECT_LT(std::abs(PersistenceOf(segments)), 0.35);
 }
 
-TEST(Persistence, OfShortTracksIsNotToBeTold) {
-  auto segments = Seen(0, [](double time, Id) { return Circle(20, time); });
-  for (Segment& segment : segments) segment.sightings.resize(40);
+// Three animals of 10 s tell; of 3 s they do not.
+TEST(Persistence, OfLittleIsNotToBeTold) {
+  auto segments = Seen(0, [](double time, Id) { return Circle(3, time); });
+  EXPECT_TRUE(IsErratic(PersistenceOf(segments)));
+  for (Segment& segment : segments) segment.sightings.resize(180);
   EXPECT_EQ(PersistenceOf(segments), 1);
   EXPECT_EQ(PersistenceOf({}), 1);
+  EXPECT_EQ(PersistenceOf(Seen(0.003, [](double, Id) { return Vec2d{0.1, 0.2}; })), 1);
+  EXPECT_EQ(PersistenceOf(Seen(0, [](double, Id) { return Vec2d{0.1, 0.2}; })), 1);
+}
+
+// One of three is an insect; some sightings of the others are far off, and said to be.
+TEST(Persistence, IsTheMedianOfSureSightings) {
+  auto segments = Seen(1e-5, [](double time, Id id) { return Circle(id == 2 ? 3 : 1, time); });
+  for (std::size_t k = 7; k < 600; k += 20) {
+    for (const std::size_t i : {0, 2}) {
+      segments[i].sightings[k].ray.x += 0.05;
+      segments[i].sightings[k].ray_sd = 0.05;
+    }
+  }
+  EXPECT_NEAR(PersistenceOf(segments), std::cos(kPersistenceLag), 0.02);
 }
 
 }  // namespace

@@ -119,7 +119,8 @@ class BatchProblemTest : public testing::Test {
 };
 
 TEST_F(BatchProblemTest, EveryDerivativeMatchesNumericDifferences) {
-  ExpectDerivatives(kTermCount - 2u);  // the common acceleration is the flock's
+  // The common acceleration is the flock's, the other is of erratic flight.
+  ExpectDerivatives(kTermCount - 2u);
 }
 
 TEST_F(BatchProblemTest, AlsoInErraticFlight) {

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "tests/reconstruct/coupled_case.h"
@@ -63,8 +64,9 @@ TEST(HiddenSightings, AreNotKnownToWhatIsSolvedAgain) {
     internal::BatchState elsewhere = window.state;
     for (internal::Bird& bird : elsewhere.birds) {
       for (std::size_t k = 0; k < bird.path.size(); ++k) {
-        if (k % 3 != 2) bird.path[k] += 0.1;
+        if (k % 3 != 2) bird.path[k] += 0.1 * std::sin(static_cast<double>(k));
       }
+      for (Vec3d& curve : bird.curve) curve += Vec3d{0.1, 0.2, 0.3};
     }
     constexpr int kIterations = 100;
     internal::BatchState again = internal::SolveAgain(window.state, hidden.rest(), kIterations, 1);
@@ -81,6 +83,25 @@ TEST(HiddenSightings, AreNotKnownToWhatIsSolvedAgain) {
     solver.Minimize(kIterations, {.fall = 0, .times = 5}, &iterations);
     EXPECT_NEAR(solver.Cost(), cost, 0.02);
   });
+}
+
+// Nor does a second camera see them meanwhile.
+TEST(HiddenSightings, AreHiddenFromAllCameras) {
+  Segments all = Seen({.count = 3, .frames = 240});
+  for (Segment& segment : all.segments) {
+    for (const Sighting& s : segment.sightings) {
+      segment.views.emplace_back();
+      segment.views.back().time = s.time;
+    }
+  }
+  const internal::HiddenSightings hidden(0.25, 1, kFps, all);
+  for (std::size_t i = 0; i < all.segments.size(); ++i) {
+    const Segment& rest = hidden.rest().segments[i];
+    std::set<double> seen;
+    for (const Sighting& s : rest.sightings) seen.insert(s.time);
+    EXPECT_LT(rest.views.size(), all.segments[i].views.size());
+    for (const View& view : rest.views) EXPECT_EQ(seen.count(view.time), 1U) << view.time;
+  }
 }
 
 TEST(HiddenSightings, BetterIsAsProbableAsTheScalesOfErrorsSay) {
