@@ -11,6 +11,9 @@
 // batch. What is hidden must last longer than an acceleration does, or smoothness alone
 // predicts it as well. Small flocks have few sightings to hide: there the test goes on with others
 // hidden, until all have been (cross-validation), from depths and forces as they are known by then.
+// What is solved without hidden sightings starts from the depths, not the places in the picture, of
+// what has seen them. Forces are those of animals that fly on: in erratic flight
+// (cost_functions/erratic_flight.h) they are left out.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_DYNAMICS_H_
