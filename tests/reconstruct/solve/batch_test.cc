@@ -89,10 +89,11 @@ struct Scene {
   }
 };
 
-// Gives every box the size of a body with extents 1, 0.6 and 0.4 along wings, trunk and up, that
-// leans into its turns by the share `lean`.
-void SizeBoxesByView(const FlockSpec& spec, const Trajectories& truth, const Camera& camera,
-                     double lean, Tracks* tracks) {
+// Calls fn(box, heading, wings, depth, image) for every box of animals that lean into their turns
+// by the share `lean`: axes of the world, and what makes images of such.
+template <typename Function>
+void ForEachView(const FlockSpec& spec, const Trajectories& truth, const Camera& camera,
+                 double lean, Tracks* tracks, const Function& fn) {
   for (std::size_t i = 0; i < truth.trajectories.size(); ++i) {
     const std::vector<TrajectoryPoint>& points = truth.trajectories[i].points;
     std::vector<Detection>& boxes = tracks->tracklets[i].detections;
@@ -102,19 +103,32 @@ void SizeBoxesByView(const FlockSpec& spec, const Trajectories& truth, const Cam
       const Vec3d before = points[m - 1].position, here = points[m].position;
       const Vec3d after = points[m + 1].position;
       const Vec3d curve = spec.fps * spec.fps / 9.81 * (after - 2.0 * here + before);
-      const Vec3d trunk = Normalized(after - before);
-      const Vec3d wings = Normalized(Cross(trunk, Vec3d{0, 0, 1} + lean * curve));
+      const Vec3d heading = Normalized(after - before);
+      const Vec3d wings = Normalized(Cross(heading, Vec3d{0, 0, 1} + lean * curve));
       const Rigid3d cam_from_world = camera.CamFromWorld(points[k].frame);
       const Vec3d x = cam_from_world * points[k].position;
-      double squares = 0;
-      for (const Vec3d& axis : {wings, 0.6 * trunk, 0.4 * Cross(wings, trunk)}) {
+      fn(&boxes[k].box, heading, wings, x.z, [&](const Vec3d& axis) {
         const Vec3d a = cam_from_world.rotation * axis;
-        squares += std::pow(a.x - x.x / x.z * a.z, 2) + std::pow(a.y - x.y / x.z * a.z, 2);
-      }
-      const double size = camera.intrinsics.fx * spec.wingspan / x.z * std::sqrt(squares);
-      boxes[k].box = Box::Around(boxes[k].box.Center(), 0.8 * size, 0.6 * size);
+        return Vec2d{a.x - x.x / x.z * a.z, a.y - x.y / x.z * a.z};
+      });
     }
   }
+}
+
+// Gives every box the size of a body with extents 1, 0.6 and 0.4 along wings, trunk and up.
+void SizeBoxesByView(const FlockSpec& spec, const Trajectories& truth, const Camera& camera,
+                     double lean, Tracks* tracks) {
+  ForEachView(
+      spec, truth, camera, lean, tracks,
+      [&](Box* box, const Vec3d& trunk, const Vec3d& wings, double depth, const auto& image) {
+        double squares = 0;
+        for (const Vec3d& axis : {wings, 0.6 * trunk, 0.4 * Cross(wings, trunk)}) {
+          const Vec2d a = image(axis);
+          squares += a.x * a.x + a.y * a.y;
+        }
+        const double size = camera.intrinsics.fx * spec.wingspan / depth * std::sqrt(squares);
+        *box = Box::Around(box->Center(), 0.8 * size, 0.6 * size);
+      });
 }
 
 // Birds on circles of 12 m at 10 m/s: a coordinated turn banks them by 40 degrees.
@@ -134,33 +148,18 @@ TEST(Batch, FindsHowFarAnimalsLean) {
   }
 }
 
-// Keeps the size of every box and gives it the form of a body (body_image.h) that leans like that.
+// Keeps the size of every box and gives it the form of a body (body_image.h).
 void FormBoxesByView(const FlockSpec& spec, const Trajectories& truth, const Camera& camera,
                      double lean, Tracks* tracks) {
   const BodyImage body(BodyImage::Kind::kBox, {.length = 0.5, .amplitude = 0.7});
-  for (std::size_t i = 0; i < truth.trajectories.size(); ++i) {
-    const std::vector<TrajectoryPoint>& points = truth.trajectories[i].points;
-    std::vector<Detection>& boxes = tracks->tracklets[i].detections;
-    ASSERT_EQ(points.size(), boxes.size());
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const std::size_t m = std::clamp<std::size_t>(k, 1, points.size() - 2);
-      const Vec3d before = points[m - 1].position, here = points[m].position;
-      const Vec3d after = points[m + 1].position;
-      const Vec3d curve = spec.fps * spec.fps / 9.81 * (after - 2.0 * here + before);
-      const Vec3d g = Normalized(after - before);
-      const Vec3d s = Normalized(Cross(g, Vec3d{0, 0, 1} + lean * curve));
-      const Rigid3d cam_from_world = camera.CamFromWorld(points[k].frame);
-      const Vec3d x = cam_from_world * points[k].position;
-      const auto image = [&](const Vec3d& axis) {
-        const Vec3d a = cam_from_world.rotation * axis;
-        return Vec2d{a.x - x.x / x.z * a.z, a.y - x.y / x.z * a.z};
-      };
-      const double e = body.Ellipticity(image(g), image(s), image(Cross(s, g))).x;
-      Box& box = boxes[k].box;
-      const double size = std::hypot(box.width, box.height);
-      box = Box::Around(box.Center(), size * std::sqrt((1 + e) / 2), size * std::sqrt((1 - e) / 2));
-    }
-  }
+  ForEachView(spec, truth, camera, lean, tracks,
+              [&](Box* place, const Vec3d& g, const Vec3d& s, double, const auto& image) {
+                const double e = body.Ellipticity(image(g), image(s), image(Cross(s, g))).x;
+                Box& box = *place;
+                const double size = std::hypot(box.width, box.height);
+                box = Box::Around(box.Center(), size * std::sqrt((1 + e) / 2),
+                                  size * std::sqrt((1 - e) / 2));
+              });
 }
 
 // Sizes say nothing of it here: they do not go with the view.
