@@ -159,6 +159,19 @@ TEST(CoupledFlock, HoldsWhatItIsToldToHold) {
             });
 }
 
+// After the first step, where no number of such steps would lead there; else it goes on.
+TEST(CoupledFlock, GivesUpWhatIsHopeless) {
+  WithFlock({.count = 5, .frames = 60}, {},
+            [](const internal::WindowToRefine&, internal::CoupledFlock& flock) {
+              const double start = flock.Cost();
+              EXPECT_FALSE(flock.Minimize(20, {.enough = 0, .hopeless = -1e9}));
+              const double once = flock.Cost();
+              EXPECT_LT(once, start);
+              flock.Minimize(20, {.enough = 0, .hopeless = once});
+              EXPECT_LT(flock.Cost(), once - 1);
+            });
+}
+
 // The most probable of its starts: never less probable than the one that the batch solution gives.
 TEST(ForceSearch, IsAtLeastAsProbableAsFromTheBatchSolutionAlone) {
   const FlockSpec spec{.count = 5, .frames = 90};
