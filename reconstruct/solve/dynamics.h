@@ -29,7 +29,7 @@ struct DynamicsOptions {
   double hidden_time = 2;
   double noise_sd = 0.3;
   double noise_time = 0.7;
-  int rounds = 3;
+  int rounds = 1;
 };
 
 template <typename Visitor>
@@ -41,7 +41,8 @@ void Describe(Visitor& visit, DynamicsOptions& o) {
   visit("noise-sd", o.noise_sd, {.low = 0.01, .high = 100}, "m/s^2",
         "least spread of accelerations beyond the forces");
   visit("noise-time", o.noise_time, {.low = 0.01, .high = 100}, "s", "how long these last");
-  visit("rounds", o.rounds, {.low = 1, .high = 20}, "", "of estimating the noise");
+  visit("rounds", o.rounds, {.low = 1, .high = 20}, "",
+        "of estimating the noise, at the end of a search");
 }
 
 // The batch method's result, with forces where these count, and BatchReport::dynamics.

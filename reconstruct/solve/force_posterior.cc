@@ -11,7 +11,7 @@ namespace flocklift::internal {
 namespace {
 
 constexpr double kUnsure = 1.4;  // errors over what the linearised posterior says, as measured
-constexpr double kOpen = 0.7;    // of what two starts are apart, as measured
+constexpr double kOpen = 2.5;    // of what two searches are apart, as measured
 constexpr int kIterations = 6;
 
 std::vector<std::vector<double>> Linear(int draws, CoupledFlock* coupled) {

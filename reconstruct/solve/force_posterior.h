@@ -4,12 +4,12 @@
 // How sure depths are where forces are known: the posterior of the linearised problem
 // (coupled_flock.h), widened by what that cannot know,
 //   variance = (kUnsure sd)^2 + (kOpen apart)^2,
-// apart: how far another start's solution is away. A slope says nothing beyond the edge of a rule,
-// and depths are hardly ever known as sharply as flocks obey rules with hard edges. So the force is
-// linearised as it is in the mean over what depths may be (statistical linearisation: Gelb, Applied
-// Optimal Estimation, 1974, ch. 6): rules end over a length no shorter than distances are unsure.
-// Depths of sd s, each for itself, at distance z move the distance of two by sqrt(2) s z along the
-// view and 1/sqrt(3) of it along the line between them, which is as wide as a window of
+// apart: how far the next best solution of the search is away. A slope says nothing beyond the edge
+// of a rule, and depths are hardly ever known as sharply as flocks obey rules with hard edges. So
+// the force is linearised as it is in the mean over what depths may be (statistical linearisation:
+// Gelb, Applied Optimal Estimation, 1974, ch. 6): rules end over a length no shorter than distances
+// are unsure. Depths of sd s, each for itself, at distance z move the distance of two by sqrt(2) s
+// z along the view and 1/sqrt(3) of it along the line between them, which is as wide as a window of
 //   w = sqrt(12) sqrt(2/3) s z = sqrt(8) s z.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_POSTERIOR_H_

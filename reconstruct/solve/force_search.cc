@@ -13,27 +13,9 @@
 namespace flocklift::internal {
 namespace {
 
-constexpr int kIterations = 6;  // of one round, at most
-constexpr int kAnnealIterations = 10;
+constexpr int kIterations = 6;  // of Settle, at most
 constexpr std::size_t kFew = 30;
 constexpr Effort kRough{.enough = 0.5, .step = {.share = 3e-2, .most = 60}};
-
-// Forces and paths from where they are, with the noise that they leave from round to
-// round, at first as much as the batch method's accelerations.
-void FollowFitted(const DynamicsOptions& options, const BatchModel& model, FollowedFlock* flock) {
-  CoupledFlock coupled(model, &flock->birds, &flock->shared, flock->scale);
-  coupled.noise = {std::max(options.noise_sd, model.spreads.acceleration.sd), options.noise_time};
-  coupled.FitForces(2 * kIterations);
-  for (int round = 0; round < options.rounds; ++round) {
-    coupled.Minimize(kIterations);
-    coupled.Relinearize();
-    const double sd = coupled.noise.sd;
-    coupled.noise.sd =
-        std::max(options.noise_sd, std::clamp(coupled.EstimateNoise(), 0.5 * sd, 1.5 * sd));
-  }
-  coupled.Minimize(kIterations);
-  flock->Take(coupled);
-}
 
 // Moves depths by `share` of the way to the flock's mean at every knot, and speeds to its own.
 void DrawTogether(double share, FollowedFlock* flock) {
@@ -60,36 +42,48 @@ void DrawTogether(double share, FollowedFlock* flock) {
   }
 }
 
-void FollowAnnealed(const DynamicsOptions& options, const BatchModel& model, double together,
-                    FollowedFlock* flock) {
-  constexpr double kTight = 0.1, kSoft = 0.1, kHarder = 3;
-  constexpr double kCalmer = 0.7, kCalmest = 0.25;
-  constexpr int kFreeRounds = 2;
-  DrawTogether(together, flock);
+// Of one step of annealing, at most: with many animals, wrong places of few weigh less.
+int AnnealIterations(std::size_t animals) { return animals > kFew ? 5 : 10; }
+
+// How paths and forces are found from where a flock is.
+struct Annealing {
+  double together = 0;    // share of the way to the flock's mean depth that animals start from
+  double separation = 1;  // share of its usual weight until noise is low: below 1, animals pass
+                          // through each other to where all else would have them
+};
+
+// The noise starts as large as the batch method's accelerations, falls until animals all but obey
+// the forces, and then is what they leave.
+void Anneal(const DynamicsOptions& options, const BatchModel& model, const Annealing& how,
+            FollowedFlock* flock) {
+  constexpr double kTight = 0.1, kHarder = 3;
+  constexpr double kCalmer = 0.6, kCalmest = 0.08;
+  if (how.together > 0) DrawTogether(how.together, flock);
   CoupledFlock coupled(model, &flock->birds, &flock->shared, flock->scale);
   const double noise = std::max(options.noise_sd, model.spreads.acceleration.sd);
   coupled.noise = {noise, options.noise_time};
   coupled.tightness = kTight;
-  const auto settle = [&coupled] {
-    coupled.Minimize(kAnnealIterations, kRough);
+  const int iterations = AnnealIterations(flock->birds.size());
+  const auto settle = [&coupled, iterations] {
+    coupled.Minimize(iterations, kRough);
     coupled.Relinearize();
   };
-  coupled.HoldSeparation(kSoft);
+  coupled.HoldSeparation(how.separation);
   coupled.FitForces(2 * kIterations);
   for (; coupled.noise.sd > kCalmest * noise; coupled.noise.sd *= kCalmer) settle();
-  for (double separation = kSoft; separation < 1; separation *= kHarder) {
+  for (double separation = how.separation; separation < 1; separation *= kHarder) {
     coupled.HoldSeparation(separation);
     settle();
   }
   coupled.HoldSeparation(1);
   for (const double tightness : {kTight, 1.0}) {
     coupled.tightness = tightness;
-    for (int round = 0; round < kFreeRounds; ++round) {
+    for (int round = 0; round < options.rounds; ++round) {
       coupled.noise.sd = std::max(options.noise_sd, coupled.EstimateNoise());
       settle();
     }
   }
-  coupled.Minimize(kAnnealIterations);
+  coupled.Minimize(iterations);
   flock->Take(coupled);
 }
 
@@ -118,12 +112,14 @@ std::vector<double> Apart(const std::vector<Bird>& a, const std::vector<Bird>& b
   return apart;
 }
 
-// Annealed starts: how far animals are drawn together. Without sizes the batch solution hardly
-// knows who is in front; a start takes longer the more neighbours there are, so that large flocks
-// have time for one.
-std::vector<double> AnnealedStarts(bool sizes, std::size_t animals) {
-  if (sizes) return {0.25};
-  return animals > kFew ? std::vector<double>{1} : std::vector<double>{0.5, 1};
+// From the batch solution. Without sizes that hardly knows who is in front; animals that pass
+// through each other take longer the more neighbours there are, so that large flocks have time for
+// one.
+std::vector<Annealing> Starts(bool sizes, std::size_t animals) {
+  constexpr double kSoft = 0.1;
+  if (sizes) return {{}};
+  if (animals > kFew) return {{.together = 1, .separation = kSoft}};
+  return {{.together = 0.5, .separation = kSoft}, {.together = 1, .separation = kSoft}};
 }
 
 // How often all animals are tried at other depths, at most. It takes time with the square of their
@@ -138,19 +134,22 @@ int Sweeps(std::size_t animals) {
 
 FollowedFlock FollowForces(const DynamicsOptions& options, const BatchState& batch) {
   FollowedFlock start{batch.birds, batch.shared, {}, {}, 0, {}, {}};
-  FollowedFlock best = start;
-  FollowFitted(options, batch.model, &best);
-  start.scale = best.scale;
-  FollowedFlock next;
-  for (const double together : AnnealedStarts(batch.model.use_size, start.birds.size())) {
-    FollowedFlock flock = start;
-    FollowAnnealed(options, batch.model, together, &flock);
-    if (flock.improbable < best.improbable) std::swap(flock, best);
+  start.scale = CoupledFlock(batch.model, &start.birds, &start.shared).scale();
+  FollowedFlock best, next;
+  const auto try_from = [&](const FollowedFlock& from, const Annealing& how) {
+    FollowedFlock flock = from;
+    Anneal(options, batch.model, how, &flock);
+    if (best.birds.empty() || flock.improbable < best.improbable) std::swap(flock, best);
+    if (flock.birds.empty()) return;
     if (next.birds.empty() || flock.improbable < next.improbable) next = std::move(flock);
+  };
+  for (const Annealing& how : Starts(batch.model.use_size, start.birds.size())) {
+    try_from(start, how);
   }
+  try_from(best, {});
   best.apart = Apart(best.birds, next.birds);
   const int sweeps = Sweeps(best.birds.size());
-  if (sweeps > 0) best.Settle(batch.model, kAnnealIterations);
+  if (sweeps > 0) best.Settle(batch.model, AnnealIterations(best.birds.size()));
   for (int sweep = 0; sweep < sweeps && MoveDepths(batch.model, &best) > 0; ++sweep) {
   }
   return best;

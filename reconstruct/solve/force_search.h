@@ -3,12 +3,15 @@
 //
 // The search for paths and forces together (coupled_flock.h), from the batch solution on. Their
 // cost has many minima: depths that are wrong make all of a neighbour's influence look weaker than
-// it is, and weak forces leave them wrong; animals that hold each other's places cannot pass, for
-// separation keeps them apart. So it is sought from several starts:
-//   fitted    the batch solution, with the forces that explain it best
-//   annealed  animals drawn towards the flock's mean depth, with the forces of usual birds; their
-//             noise falls below what it will be, then separation grows to what it is
-// From the most probable of them on, animals are tried at other depths (depth_moves.h).
+// it is, and weak forces leave them wrong; who of two neighbours is in front hardly shows in how
+// they push each other sideways. So it is annealed: noise falls, from the batch method's
+// accelerations to so little that animals all but obey the forces of usual birds, and then both are
+// let go to what the paths say. What was found is annealed once more, from where it is.
+// Without sizes the batch solution hardly knows who is in front. Before, animals are drawn to the
+// flock's mean depth and pass through each other, for separation stays weak until noise is low:
+// that finds a better order, but paths that suit other forces, which the last annealing mends.
+// From the most probable solution on, animals are tried at other depths (depth_moves.h).
+// (graduated non-convexity: Blake and Zisserman, Visual Reconstruction, 1987, ch. 7)
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_SEARCH_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_SEARCH_H_
