@@ -20,7 +20,7 @@ struct FollowedFlock {
   Eigen::VectorXd shared, forces;
   MarkovProcess noise;
   double improbable = 0;                     // minus log of its probability, but for a constant
-  std::vector<double> apart;                 // from the next best start's, by animal [log depth]
+  std::vector<double> open;                  // sds that the search leaves, by animal [log depth]
   std::optional<CoupledFlock::Scale> scale;  // at which that is told
 
   // The problem from where this solution is; it moves `birds` and `shared`.

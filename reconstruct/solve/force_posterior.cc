@@ -11,7 +11,6 @@ namespace flocklift::internal {
 namespace {
 
 constexpr double kUnsure = 1.4;  // errors over what the linearised posterior says, as measured
-constexpr double kOpen = 2.5;    // of what two searches are apart, as measured
 constexpr int kIterations = 6;
 
 std::vector<std::vector<double>> Linear(int draws, CoupledFlock* coupled) {
@@ -39,7 +38,7 @@ ForcePosterior PosteriorOf(const BatchModel& model, FollowedFlock* flock) {
   CoupledFlock coupled = flock->Settle(model, kIterations);
   constexpr int kRough = 1, kFine = 4;  // draws: of the mean over all animals, of each one
   ForcePosterior posterior{Linear(kRough, &coupled), {}};
-  for (const double apart : flock->apart) posterior.open.push_back(kOpen * kOpen * apart * apart);
+  for (const double sd : flock->open) posterior.open.push_back(sd * sd);
   const double width = std::sqrt(8) * posterior.Rms() * std::exp(coupled.scale().log_depth);
   double& log_taper = coupled.forces.unknowns[kLogTaper];
   if (width > std::exp(log_taper)) {

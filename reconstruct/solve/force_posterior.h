@@ -3,8 +3,8 @@
 //
 // How sure depths are where forces are known: the posterior of the linearised problem
 // (coupled_flock.h), widened by what that cannot know,
-//   variance = (kUnsure sd)^2 + (kOpen apart)^2,
-// apart: how far the next best solution of the search is away. A slope says nothing beyond the edge
+//   variance = (kUnsure sd)^2 + open^2,
+// open: what the search for forces leaves (force_search.h). A slope says nothing beyond the edge
 // of a rule, and depths are hardly ever known as sharply as flocks obey rules with hard edges. So
 // the force is linearised as it is in the mean over what depths may be (statistical linearisation:
 // Gelb, Applied Optimal Estimation, 1974, ch. 6): rules end over a length no shorter than distances

@@ -54,16 +54,16 @@ struct Annealing {
 
 // The noise starts as large as the batch method's accelerations, falls until animals all but obey
 // the forces, and then is what they leave.
-void Anneal(const DynamicsOptions& options, const BatchModel& model, const Annealing& how,
-            FollowedFlock* flock) {
+FollowedFlock Annealed(const DynamicsOptions& options, const BatchModel& model,
+                       const Annealing& how, FollowedFlock flock) {
   constexpr double kTight = 0.1, kHarder = 3;
   constexpr double kCalmer = 0.6, kCalmest = 0.08;
-  if (how.together > 0) DrawTogether(how.together, flock);
-  CoupledFlock coupled(model, &flock->birds, &flock->shared, flock->scale);
+  if (how.together > 0) DrawTogether(how.together, &flock);
+  CoupledFlock coupled(model, &flock.birds, &flock.shared, flock.scale);
   const double noise = std::max(options.noise_sd, model.spreads.acceleration.sd);
   coupled.noise = {noise, options.noise_time};
   coupled.tightness = kTight;
-  const int iterations = AnnealIterations(flock->birds.size());
+  const int iterations = AnnealIterations(flock.birds.size());
   const auto settle = [&coupled, iterations] {
     coupled.Minimize(iterations, kRough);
     coupled.Relinearize();
@@ -84,7 +84,8 @@ void Anneal(const DynamicsOptions& options, const BatchModel& model, const Annea
     }
   }
   coupled.Minimize(iterations);
-  flock->Take(coupled);
+  flock.Take(coupled);
+  return flock;
 }
 
 // How far the depths of two solutions are apart after one common scale, by animal: halfway to what
@@ -133,21 +134,26 @@ int Sweeps(std::size_t animals) {
 }  // namespace
 
 FollowedFlock FollowForces(const DynamicsOptions& options, const BatchState& batch) {
+  // What sds are over how far solutions are apart, as measured.
+  constexpr double kOfAnnealings = 2.5, kOfStarts = 0.7;
   FollowedFlock start{batch.birds, batch.shared, {}, {}, 0, {}, {}};
   start.scale = CoupledFlock(batch.model, &start.birds, &start.shared).scale();
-  FollowedFlock best, next;
-  const auto try_from = [&](const FollowedFlock& from, const Annealing& how) {
-    FollowedFlock flock = from;
-    Anneal(options, batch.model, how, &flock);
-    if (best.birds.empty() || flock.improbable < best.improbable) std::swap(flock, best);
-    if (flock.birds.empty()) return;
-    if (next.birds.empty() || flock.improbable < next.improbable) next = std::move(flock);
-  };
+  FollowedFlock best, other;
   for (const Annealing& how : Starts(batch.model.use_size, start.birds.size())) {
-    try_from(start, how);
+    FollowedFlock flock = Annealed(options, batch.model, how, start);
+    if (best.birds.empty() || flock.improbable < best.improbable) std::swap(flock, best);
+    if (!flock.birds.empty()) other = std::move(flock);
   }
-  try_from(best, {});
-  best.apart = Apart(best.birds, next.birds);
+  FollowedFlock again = Annealed(options, batch.model, {}, best);
+  if (again.improbable < best.improbable) std::swap(again, best);
+  best.open = Apart(best.birds, again.birds);
+  for (double& sd : best.open) sd *= kOfAnnealings;
+  if (!other.birds.empty()) {
+    const std::vector<double> apart = Apart(best.birds, other.birds);
+    for (std::size_t i = 0; i < apart.size(); ++i) {
+      best.open[i] = std::max(best.open[i], kOfStarts * apart[i]);
+    }
+  }
   const int sweeps = Sweeps(best.birds.size());
   if (sweeps > 0) best.Settle(batch.model, AnnealIterations(best.birds.size()));
   for (int sweep = 0; sweep < sweeps && MoveDepths(batch.model, &best) > 0; ++sweep) {

@@ -10,7 +10,8 @@
 // Without sizes the batch solution hardly knows who is in front. Before, animals are drawn to the
 // flock's mean depth and pass through each other, for separation stays weak until noise is low:
 // that finds a better order, but paths that suit other forces, which the last annealing mends.
-// From the most probable solution on, animals are tried at other depths (depth_moves.h).
+// From the most probable solution on, animals are tried at other depths (depth_moves.h). Where an
+// animal is in other solutions tells how open the search leaves its depth.
 // (graduated non-convexity: Blake and Zisserman, Visual Reconstruction, 1987, ch. 7)
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_FORCE_SEARCH_H_

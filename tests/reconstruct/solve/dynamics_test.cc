@@ -200,8 +200,8 @@ TEST(ForceSearch, FindsWhatIsMoreProbable) {
         }
       }
       const auto found = internal::FollowForces({}, start);
-      ASSERT_EQ(found.apart.size(), start.birds.size());
-      for (const double apart : found.apart) EXPECT_GE(apart, 0);
+      ASSERT_EQ(found.open.size(), start.birds.size());
+      for (const double sd : found.open) EXPECT_GE(sd, 0);
       const double rest = CostOfRest(start.model, found, found.birds, found.shared);
       const double without = CostOfRest(start.model, found, start.birds, start.shared);
       EXPECT_LT(rest, without + 3);
