@@ -86,8 +86,9 @@ class CoupledFlock {
   template <int Count>
   Columns<Count> Solve(const Columns<Count>& b, const GradientStop& stop) const;
 
-  // The sd of the noise by MacKay's fixed point (spread_estimator.h), at the solution.
-  double EstimateNoise();
+  // The sd of the noise by MacKay's fixed point (spread_estimator.h), at the solution; none where
+  // the system is singular.
+  std::optional<double> EstimateNoise();
   // Posterior at the solution: sd of the log depth at every sighting, that of all depths' mean
   // taken out, and of the mean. Empty where the system is singular.
   struct DepthSds {

@@ -74,9 +74,9 @@ Columns<CoupledFlock::kSamples> CoupledFlock::Draw(std::uint64_t seed,
   return Solve<kSamples>(pulled, stop);
 }
 
-double CoupledFlock::EstimateNoise() {
+std::optional<double> CoupledFlock::EstimateNoise() {
   Linearize();
-  if (!Factorise(0)) return noise.sd;
+  if (!Factorise(0)) return {};
   Errors<kSamples> changes, heard;
   ChangesOf<kSamples>(Draw(kNoiseSeed, kNoiseStop), &changes, &heard);
   constexpr double kInterval = 0.5;  // between the errors that are looked at [s]

@@ -42,7 +42,7 @@ void Describe(Visitor& visit, DynamicsOptions& o) {
         "least spread of accelerations beyond the forces");
   visit("noise-time", o.noise_time, {.low = 0.01, .high = 100}, "s", "how long these last");
   visit("rounds", o.rounds, {.low = 1, .high = 20}, "",
-        "of estimating the noise, at the end of a search");
+        "of estimating the noise, in each of two steps that end a search");
 }
 
 // The batch method's result, with forces where these count, and BatchReport::dynamics.

@@ -24,7 +24,7 @@ namespace flocklift::internal {
 // Variances of log depth, the common scale's apart.
 struct ForcePosterior {
   std::vector<std::vector<double>> linear;  // at every sighting, by animal; empty: singular
-  std::vector<double> open;                 // by animal: what the search leaves
+  std::vector<double> open;                 // by animal: squares of what the search leaves
 
   // Root mean square of all sds.
   double Rms() const;

@@ -13,7 +13,7 @@
 namespace flocklift::internal {
 namespace {
 
-constexpr int kIterations = 6;  // of Settle, at most
+constexpr int kIterations = 6;  // of Settle, and half of those of forces alone, at most
 constexpr std::size_t kFew = 30;
 constexpr Effort kRough{.enough = 0.5, .step = {.share = 3e-2, .most = 60}};
 
@@ -53,7 +53,8 @@ struct Annealing {
 };
 
 // The noise starts as large as the batch method's accelerations, falls until animals all but obey
-// the forces, and then is what they leave.
+// the forces, and then is estimated from what they leave, from there on and as often as options
+// say.
 FollowedFlock Annealed(const DynamicsOptions& options, const BatchModel& model,
                        const Annealing& how, FollowedFlock flock) {
   constexpr double kTight = 0.1, kHarder = 3;
@@ -71,15 +72,18 @@ FollowedFlock Annealed(const DynamicsOptions& options, const BatchModel& model,
   coupled.HoldSeparation(how.separation);
   coupled.FitForces(2 * kIterations);
   for (; coupled.noise.sd > kCalmest * noise; coupled.noise.sd *= kCalmer) settle();
-  for (double separation = how.separation; separation < 1; separation *= kHarder) {
-    coupled.HoldSeparation(separation);
+  if (how.separation < 1) {
+    for (double separation = how.separation; separation < 1; separation *= kHarder) {
+      coupled.HoldSeparation(separation);
+      settle();
+    }
+    coupled.HoldSeparation(1);
     settle();
   }
-  coupled.HoldSeparation(1);
   for (const double tightness : {kTight, 1.0}) {
     coupled.tightness = tightness;
     for (int round = 0; round < options.rounds; ++round) {
-      coupled.noise.sd = std::max(options.noise_sd, coupled.EstimateNoise());
+      coupled.noise.sd = std::max(options.noise_sd, coupled.EstimateNoise().value_or(noise));
       settle();
     }
   }
@@ -113,9 +117,14 @@ std::vector<double> Apart(const std::vector<Bird>& a, const std::vector<Bird>& b
   return apart;
 }
 
-// From the batch solution. Without sizes that hardly knows who is in front; animals that pass
-// through each other take longer the more neighbours there are, so that large flocks have time for
-// one.
+// Also than a solution that is not a number.
+bool IsBetter(const FollowedFlock& a, const FollowedFlock& b) {
+  return !(b.improbable <= a.improbable);
+}
+
+// From the batch solution, two at most. Without sizes that hardly knows who is in front; animals
+// that pass through each other take longer the more neighbours there are, so that large flocks have
+// time for one.
 std::vector<Annealing> Starts(bool sizes, std::size_t animals) {
   constexpr double kSoft = 0.1;
   if (sizes) return {{}};
@@ -141,11 +150,15 @@ FollowedFlock FollowForces(const DynamicsOptions& options, const BatchState& bat
   FollowedFlock best, other;
   for (const Annealing& how : Starts(batch.model.use_size, start.birds.size())) {
     FollowedFlock flock = Annealed(options, batch.model, how, start);
-    if (best.birds.empty() || flock.improbable < best.improbable) std::swap(flock, best);
+    if (best.birds.empty() || IsBetter(flock, best)) std::swap(flock, best);
     if (!flock.birds.empty()) other = std::move(flock);
   }
   FollowedFlock again = Annealed(options, batch.model, {}, best);
-  if (again.improbable < best.improbable) std::swap(again, best);
+  if (IsBetter(again, best)) std::swap(again, best);
+  const int sweeps = Sweeps(best.birds.size());
+  if (sweeps > 0) best.Settle(batch.model, AnnealIterations(best.birds.size()));
+  for (int sweep = 0; sweep < sweeps && MoveDepths(batch.model, &best) > 0; ++sweep) {
+  }
   best.open = Apart(best.birds, again.birds);
   for (double& sd : best.open) sd *= kOfAnnealings;
   if (!other.birds.empty()) {
@@ -153,10 +166,6 @@ FollowedFlock FollowForces(const DynamicsOptions& options, const BatchState& bat
     for (std::size_t i = 0; i < apart.size(); ++i) {
       best.open[i] = std::max(best.open[i], kOfStarts * apart[i]);
     }
-  }
-  const int sweeps = Sweeps(best.birds.size());
-  if (sweeps > 0) best.Settle(batch.model, AnnealIterations(best.birds.size()));
-  for (int sweep = 0; sweep < sweeps && MoveDepths(batch.model, &best) > 0; ++sweep) {
   }
   return best;
 }

@@ -204,8 +204,8 @@ TEST_F(DepthTableTest, ForcesTellDepthWhereAFlockHasThem) {
   EXPECT_LT(error, 0.75 * batch_error);
 }
 
-// Without sizes the batch solution hardly knows who is in front: the start that draws the flock
-// together finds that too.
+// Without sizes the batch solution hardly knows who is in front: drawing the flock together finds
+// that too.
 TEST_F(DepthTableTest, ForcesTellDepthWithoutSizesToo) {
   std::ofstream(folder_ / "depth_circling.toml") << kCircling;
   const DepthMethod batch{.name = "batch", .use_size = false};
