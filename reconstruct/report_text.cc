@@ -73,6 +73,7 @@ std::string DescribeSolution(const Knowledge& knowledge, const Segments& segment
     if (knowledge.up_in_cam) text += "; level flight helps";
   }
   if (batch.report.stiff_boxes > 0.5) text += "; boxes are as large from every side";
+  if (batch.report.weak_perspective) text += "; bodies are drawn in weak perspective";
   text += "; median relative sd " + Percent(report.relative_sd) + ", common scale " +
           Percent(report.scale_sd) + " (" + report.scale_from + ")";
   if (report.speed_by_sizes) text += "; " + SpeedBySizes(*report.speed_by_sizes);

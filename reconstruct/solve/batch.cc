@@ -138,6 +138,7 @@ BatchResult SolveBatch(const BatchOptions& options, const Knowledge& knowledge,
     if (!belief) {
       result.report.speed_against_size = solved.result.report.speed_against_size;
       result.report.stiff_boxes = solved.result.report.stiff_boxes;
+      result.report.weak_perspective = solved.result.report.weak_perspective;
     }
     belief = solved.belief;
     result.report.flock_speed = solved.result.report.flock_speed;

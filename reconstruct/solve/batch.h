@@ -51,14 +51,15 @@ struct BatchReport {
   double initial_cost = 0, final_cost = 0;
   int iterations = 0;
   bool converged = false;
-  double scale_sd = 0;           // relative sd of the common scale
-  Uncertain flock_speed;         // posterior [m/s]
-  Uncertain size_ratio;          // posterior, relative to the wingspan's prior
-  Uncertain lean;                // into turns (cost_functions/size.h), posterior
-  Uncertain speed_against_size;  // log of (speed by the sizes over its prior's mean); sizes' sd
-  bool erratic = false;          // animals were taken to keep no speed (erratic_flight.h)
-  double stiff_boxes = 0;        // probability that boxes do not follow the bodies in them
-                                 // (size_model.h); 0 where no wingspan is known
+  double scale_sd = 0;            // relative sd of the common scale
+  Uncertain flock_speed;          // posterior [m/s]
+  Uncertain size_ratio;           // posterior, relative to the wingspan's prior
+  Uncertain lean;                 // into turns (cost_functions/size.h), posterior
+  Uncertain speed_against_size;   // log of (speed by the sizes over its prior's mean); sizes' sd
+  bool erratic = false;           // animals were taken to keep no speed (erratic_flight.h)
+  double stiff_boxes = 0;         // probability that boxes do not follow the bodies in them
+                                  // (size_model.h); 0 where no wingspan is known
+  bool weak_perspective = false;  // forms showed bodies in weak perspective (body_fit.h)
   std::vector<std::pair<std::string, double>> spreads;  // estimated
   std::vector<TermStatistics> terms;
   DynamicsReport dynamics;  // where forces were tried (dynamics.h)

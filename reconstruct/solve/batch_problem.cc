@@ -83,7 +83,8 @@ void ForEachKnotError(const BatchModel& model, const Bird& bird, const Eigen::Ve
                          .curve = bird.curve[knot],
                          .camera = camera,
                          .body = &model.body.image,
-                         .body_share = model.body.share};
+                         .body_share = model.body.share,
+                         .perspective = model.body.perspective};
     const auto flocks = [&](int k) { return BorderScalar{shared[k], kOwnUnknowns + k}; };
     take(Term::kSize, 0,
          evaluate.template Of<1, 2>(

@@ -69,14 +69,15 @@ class FormFit {
 
   struct Found {
     Unknowns at, sd;
+    double perspective = 1;
     double cost = 0;  // -2 log of the posterior, but for a constant
   };
-  Found From(double lean) const {
+  Found From(double lean, double perspective) const {
     constexpr int kIterations = 6;
     constexpr double kHuber = 2;      // [sd]
     constexpr double kLongest = 1.5;  // step, in sds of the prior
     constexpr double kLeastSd = 0.01;
-    Found found{.at = mean_, .sd = sd_};
+    Found found{.at = mean_, .sd = sd_, .perspective = perspective};
     found.at[kLeanAt] = lean;
     double error_sd = 0.2;
     const double dimensions = kind_ == BodyImage::Kind::kBox ? 1 : 2;
@@ -85,10 +86,11 @@ class FormFit {
       Eigen::Vector3d pull = matrix * (mean_ - found.at);
       const double prior = pull.dot(mean_ - found.at);
       double squares = 0;
-      const Guess now = GuessOf(found.at);
+      const Guess now = GuessOf(found.at, perspective);
       std::array<Guess, 3> moved{now, now, now};
       for (int a = 0; a < 3; ++a) {
-        moved[static_cast<std::size_t>(a)] = GuessOf(found.at + kStep * Unknowns::Unit(a));
+        moved[static_cast<std::size_t>(a)] =
+            GuessOf(found.at + kStep * Unknowns::Unit(a), perspective);
       }
       for (const Look& look : looks_) {
         const Eigen::Vector2d here = EllipticityOf(now, look);
@@ -128,9 +130,11 @@ class FormFit {
 
   struct Guess {
     BodyImage body;
-    double lean = 0;
+    double lean = 0, perspective = 1;
   };
-  Guess GuessOf(const Unknowns& x) const { return {BodyImage(kind_, ShapeOf(x)), x[kLeanAt]}; }
+  Guess GuessOf(const Unknowns& x, double perspective) const {
+    return {BodyImage(kind_, ShapeOf(x)), x[kLeanAt], perspective};
+  }
 
   Eigen::Vector2d EllipticityOf(const Guess& guess, const Look& look) const {
     const Vec3d lift = up_in_cam_ + guess.lean * look.curve;
@@ -138,8 +142,9 @@ class FormFit {
     const double size = Norm(across);
     if (!(size > 0.15 * Norm(lift))) return look.seen;  // nearly along it: the side is anywhere
     const Vec3d side = (1 / size) * across;
-    const auto image = [&look](const Vec3d& a) {
-      return Vec2d{a.x - look.ray.x * a.z, a.y - look.ray.y * a.z};
+    const Vec2d ray{guess.perspective * look.ray.x, guess.perspective * look.ray.y};
+    const auto image = [&ray](const Vec3d& a) {
+      return Vec2d{a.x - ray.x * a.z, a.y - ray.y * a.z};
     };
     const Vec2d e =
         guess.body.Ellipticity(image(look.heading), image(side), image(Cross(side, look.heading)));
@@ -159,13 +164,18 @@ bool FitBody(bool has_shapes, const Uncertain& lean, const std::vector<Bird>& bi
   // No bird is as simple as the model. The lean in the solver is held less tightly than it is seen:
   // curves are those of an earlier solution, and sizes that follow them closely hold its errors.
   constexpr double kLengthSd = 0.03, kAmplitudeSd = 0.1, kLeanSd = 0.1;
+  const double kWeakBeforehand = 2 * std::log(9.0);  // 1 in 10
   if (!model->up_in_cam) return false;
   const std::vector<Look> looks = LooksOf(*model, birds);
   if (looks.empty()) return false;
   const auto kind = has_shapes ? BodyImage::Kind::kSilhouette : BodyImage::Kind::kBox;
   const FormFit fit(*model->up_in_cam, kind, looks, lean);
-  const FormFit::Found level = fit.From(0), banked = fit.From(1);  // there may be two modes
-  const FormFit::Found& best = level.cost <= banked.cost ? level : banked;
+  const auto from = [&fit](double perspective) {
+    const FormFit::Found level = fit.From(0, perspective), banked = fit.From(1, perspective);
+    return level.cost <= banked.cost ? level : banked;  // there may be two modes
+  };
+  const FormFit::Found usual = from(1), weak = from(0);
+  const FormFit::Found& best = weak.cost + kWeakBeforehand < usual.cost ? weak : usual;
   if (!best.at.allFinite() || !best.sd.allFinite()) return false;
   const FlockBody birds_in_general;
   FlockBody& body = model->body;
@@ -174,6 +184,7 @@ bool FitBody(bool has_shapes, const Uncertain& lean, const std::vector<Bird>& bi
   if (!has_shapes) body.length_sd = std::min(body.length_sd, std::hypot(best.sd[0], kLengthSd));
   body.amplitude_sd = std::min(birds_in_general.amplitude_sd, std::hypot(best.sd[1], kAmplitudeSd));
   body.lean = best.at[kLeanAt];
+  body.perspective = best.perspective;
   model->lean = {best.at[kLeanAt], std::min(lean.sd, std::hypot(best.sd[kLeanAt], kLeanSd))};
   return true;
 }

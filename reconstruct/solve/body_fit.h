@@ -6,8 +6,11 @@
 // body, wide and narrow wingbeats make images that are stretched in other directions. A sighting
 // tells its ellipticity, body_image.h what a body's should be. Unknown are the lean, the amplitude
 // of the wingbeat and, of boxes, the length of the body, of shapes, the second moment of its trunk.
-// Gauss-Newton with Huber's weights; errors are independent after half a second, and their sd is
-// that of what is left.
+// A camera shows every body along the ray to it. Pictures that are scaled by the distance and put
+// in their places, and boxes made from such bodies, show it along the optical axis wherever it is
+// (weak perspective): 1 in 10 beforehand, and what is more probable by far is taken. Gauss-Newton
+// with Huber's weights; errors are independent after half a second, and their sd is that of what is
+// left.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BODY_FIT_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_BODY_FIT_H_

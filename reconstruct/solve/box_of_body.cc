@@ -63,7 +63,8 @@ double BoxRatio(const BodyShape& body, const Vec3d& up, const BatchModel& model,
                            .curve = bird.curve[knot],
                            .camera = model.camera.At(time),
                            .body = &model.body.image,
-                           .body_share = model.body.share};
+                           .body_share = model.body.share,
+                           .perspective = model.body.perspective};
       double error = 0;
       size(c, 0.0, 0.0, shared[kLogTrunk], shared[kLogUp], shared[kLean], &error);
       const double log_size = q.l - error;
@@ -72,7 +73,8 @@ double BoxRatio(const BodyShape& body, const Vec3d& up, const BatchModel& model,
       const double speed = Norm(velocity);
       if (!(speed > 0)) continue;
       const Pose pose = PoseAt((1 / speed) * velocity, lift);
-      const auto image = [&q](const Vec3d& a) { return Vec2d{a.x - q.x * a.z, a.y - q.y * a.z}; };
+      const double x = size.perspective * q.x, y = size.perspective * q.y;
+      const auto image = [x, y](const Vec3d& a) { return Vec2d{a.x - x * a.z, a.y - y * a.z}; };
       sum += box.LogSize(image(pose.heading), image(pose.side), image(pose.up)) - log_size;
       ++count;
     }

@@ -198,6 +198,7 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
         const double stiff = UpdateSizeModel(options, wingspan_sd, segments.form, usual,
                                              body_is_seen, covariance, &state);
         if (knowledge.wingspan) report.stiff_boxes = stiff;
+        report.weak_perspective = model.body.perspective < 1;
       }
       minimize(kSpreadIterations, roughly);
       if (!model.erratic && (round == kFirstSearch || round == kSecondSearch)) {

@@ -45,7 +45,7 @@ std::string BytesOf(const SolvedWindow& solved) {
   const BatchReport& r = solved.result.report;
   out.Put(std::array{r.initial_cost, r.final_cost, r.scale_sd, r.stiff_boxes});
   out.Put(r.iterations);
-  out.Put(r.converged);
+  out.Put(std::array{r.converged, r.weak_perspective});
   out.Put(std::array{r.flock_speed, r.size_ratio, r.lean, r.speed_against_size});
   PutNamed(r.spreads, &out);
   out.Put(static_cast<std::uint64_t>(r.terms.size()));
@@ -65,7 +65,7 @@ std::string BytesOf(const SolvedWindow& solved) {
   const BodyShape& shape = body.image.shape();
   out.Put(body.image.kind());
   out.Put(std::array{shape.length, shape.trunk, shape.amplitude});
-  out.Put(std::array{body.length_sd, body.amplitude_sd, body.lean, body.share});
+  out.Put(std::array{body.length_sd, body.amplitude_sd, body.lean, body.share, body.perspective});
   return out.bytes();
 }
 
@@ -85,7 +85,7 @@ SolvedWindow WindowFrom(std::string_view bytes) {
   BatchReport& r = solved.result.report;
   for (double* x : {&r.initial_cost, &r.final_cost, &r.scale_sd, &r.stiff_boxes}) in.Take(x);
   in.Take(&r.iterations);
-  in.Take(&r.converged);
+  for (bool* x : {&r.converged, &r.weak_perspective}) in.Take(x);
   for (Uncertain* u : {&r.flock_speed, &r.size_ratio, &r.lean, &r.speed_against_size}) in.Take(u);
   Name name{};
   const auto take_named = [&](Named* values) {
@@ -118,7 +118,10 @@ SolvedWindow WindowFrom(std::string_view bytes) {
   in.Take(&kind);
   for (double* x : {&shape.length, &shape.trunk, &shape.amplitude}) in.Take(x);
   body.image = BodyImage(kind, shape);
-  for (double* x : {&body.length_sd, &body.amplitude_sd, &body.lean, &body.share}) in.Take(x);
+  for (double* x :
+       {&body.length_sd, &body.amplitude_sd, &body.lean, &body.share, &body.perspective}) {
+    in.Take(x);
+  }
   return solved;
 }
 

@@ -177,6 +177,27 @@ TEST(SizeError, ABallHasNoView) {
   }
 }
 
+// A bird that flies straight away, wings across. In perspective, off the axis, its trunk is seen
+// from the side too; in weak perspective it looks as it does on the axis.
+TEST(SizeError, WeakPerspectiveLooksAlongTheAxisEverywhere) {
+  const double trunk = 0.25, up = 0.1, mean = 2.0 / 3 * (1 + trunk + up), x = 0.6;
+  const auto seen = [&](double perspective) {
+    const SizeError error{.rate = 1,
+                          .softening = 1e-9,
+                          .log_size = 0,
+                          .log_wingspan = 0,
+                          .up_in_cam = Vec3d{0, -1, 0},
+                          .perspective = perspective};
+    double e;
+    // Along the axis: the ray moves towards the middle as it gets farther.
+    error(Straight({x, 0, 0}, {-0.3 * x, 0, 0.3}).data(), 0.0, 0.0, std::log(trunk), std::log(up),
+          0.0, &e);
+    return std::exp(-2 * e) * mean;  // Q without the mean
+  };
+  EXPECT_NEAR(seen(1), 1 + trunk * x * x + up, 0.02);
+  EXPECT_NEAR(seen(0), 1 + up, 0.02);
+}
+
 TEST(SizeError, WithoutGravityWingsAreAnywhereAcross) {
   SizeError error{
       .rate = 1, .softening = 1e-9, .log_size = 0, .log_wingspan = 0, .up_in_cam = std::nullopt};
@@ -245,9 +266,12 @@ TEST(Errors, DerivativesMatchNumericDifferences) {
       size.body = &body;
       for (const double share : {0.0, 0.7}) {
         size.body_share = share;
-        ExpectGradient<1, 14>(
-            [&](const auto* p, auto* e) { size(p, p[9], p[10], p[11], p[12], p[13], e); },
-            with_size);
+        for (const double perspective : {1.0, 0.0}) {
+          size.perspective = perspective;
+          ExpectGradient<1, 14>(
+              [&](const auto* p, auto* e) { size(p, p[9], p[10], p[11], p[12], p[13], e); },
+              with_size);
+        }
       }
     }
   }

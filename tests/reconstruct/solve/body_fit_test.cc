@@ -17,12 +17,12 @@ namespace {
 using Kind = BodyImage::Kind;
 constexpr Uncertain kLeanBefore{0.7, 0.5};
 
-// Birds that wheel 50 m before the camera, 10 m/s in circles of 12 m, each around its own height.
+// Birds that wheel before the camera, 10 m/s in circles of 12 m, each around its own height.
 struct Wheeling {
   BatchModel model;
   std::vector<Bird> birds;
 
-  Wheeling() {
+  explicit Wheeling(double distance = 50) {
     model.up_in_cam = Vec3d{0, -1, 0};
     constexpr int kBirds = 6, kKnots = 60;
     for (int i = 0; i < kBirds; ++i) {
@@ -32,7 +32,7 @@ struct Wheeling {
       bird.curve.resize(kKnots);
       for (int control = 0; control < kKnots + 2; ++control) {
         const double turn = i + 10.0 / 12 * model.knot_interval * (control - 1);
-        const double z = 50 + 12 * std::sin(turn);
+        const double z = distance + 12 * std::sin(turn);
         bird.path.insert(bird.path.end(),
                          {12 * std::cos(turn) / z, (2.0 * i - 12) / z, std::log(z)});
       }
@@ -42,14 +42,15 @@ struct Wheeling {
   }
 
   // What such bodies look like, with errors that alternate.
-  void Show(const BodyImage& body, double lean, double error) {
+  void Show(const BodyImage& body, double lean, double error, double perspective = 1) {
     for (Bird& bird : birds) {
       for (int knot = 0; knot < bird.knots; ++knot) {
         const std::size_t k = static_cast<std::size_t>(knot);
         const PathState<double> q = StateAtKnot(&bird.path[3 * k], 1 / model.knot_interval);
         const Vec3d g = Normalized(VelocityOverDepth(q, {}));
         const Vec3d s = Normalized(Cross(g, *model.up_in_cam + lean * bird.curve[k]));
-        const auto image = [&q](const Vec3d& a) { return Vec2d{a.x - q.x * a.z, a.y - q.y * a.z}; };
+        const double x = perspective * q.x, y = perspective * q.y;
+        const auto image = [x, y](const Vec3d& a) { return Vec2d{a.x - x * a.z, a.y - y * a.z}; };
         const Vec2d e = body.Ellipticity(image(g), image(s), image(Cross(s, g)));
         const double off = knot % 2 == 0 ? error : -error;
         bird.form[k] = Vec2d{e.x + off, e.y - off};
@@ -83,6 +84,26 @@ TEST(BodyFit, BoxesTellOfLengthsToo) {
   EXPECT_NEAR(flock.model.body.image.shape().amplitude, 0.6, 0.05);
   EXPECT_NEAR(flock.model.body.lean, 1, 0.1);
   EXPECT_LT(flock.model.body.length_sd, FlockBody{}.length_sd);
+}
+
+TEST(BodyFit, FormsTellWhetherBodiesAreInPerspective) {
+  for (const Kind kind : {Kind::kSilhouette, Kind::kBox}) {
+    for (const double perspective : {1.0, 0.0}) {
+      Wheeling flock;
+      flock.Show(BodyImage(kind, {.amplitude = 0.6}), 1, 0.05, perspective);
+      ASSERT_TRUE(FitBody(kind == Kind::kSilhouette, kLeanBefore, flock.birds, &flock.model));
+      EXPECT_EQ(flock.model.body.perspective, perspective);
+      EXPECT_NEAR(flock.model.body.image.shape().amplitude, 0.6, 0.05);
+    }
+  }
+}
+
+// Long lenses show next to nothing of it.
+TEST(BodyFit, IsInPerspectiveWhereNothingTells) {
+  Wheeling flock(5000);
+  flock.Show(BodyImage(Kind::kBox, {.amplitude = 0.6}), 1, 0.05, 0);
+  ASSERT_TRUE(FitBody(false, kLeanBefore, flock.birds, &flock.model));
+  EXPECT_EQ(flock.model.body.perspective, 1);
 }
 
 TEST(BodyFit, AFewWrongFormsDoNotMatter) {
