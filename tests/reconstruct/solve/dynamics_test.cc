@@ -234,6 +234,25 @@ TEST(ForceSearch, LeadsOutOfWrongPlaces) {
   EXPECT_GT(gain, 15);
 }
 
+// Two starts of a few animals, one of many; each drawn together first.
+TEST(ForceSearch, FewAndManyAreFoundWithoutSizesToo) {
+  for (const FlockSpec& spec :
+       {FlockSpec{.count = 6, .frames = 60}, FlockSpec{.count = 32, .frames = 20}}) {
+    WithWindow(spec, {}, [&](const internal::WindowToRefine& window) {
+      internal::BatchState start{window.state.model, window.state.birds, window.state.shared};
+      start.model.use_size = false;
+      const auto found = internal::FollowForces({}, start);
+      ASSERT_EQ(found.open.size(), start.birds.size());
+      for (const double sd : found.open) {
+        EXPECT_GT(sd, 0);
+        EXPECT_LT(sd, 1);
+      }
+      EXPECT_LT(CostOfRest(start.model, found, found.birds, found.shared),
+                CostOfRest(start.model, found, start.birds, start.shared) + 1);
+    });
+  }
+}
+
 // A sd for every sighting; more noise leaves depths less certain.
 TEST(CoupledFlock, ItsDepthsAreAsCertainAsItsNoiseLetsThemBe) {
   WithFlock({.count = 5, .frames = 90}, {},
