@@ -144,7 +144,7 @@ int Sweeps(std::size_t animals) {
 
 FollowedFlock FollowForces(const DynamicsOptions& options, const BatchState& batch) {
   // What sds are over how far solutions are apart, as measured.
-  constexpr double kOfAnnealings = 2.5, kOfStarts = 0.7;
+  constexpr double kOfAnnealings = 2.2, kOfStarts = 0.7;
   FollowedFlock start{batch.birds, batch.shared, {}, {}, 0, {}, {}};
   start.scale = CoupledFlock(batch.model, &start.birds, &start.shared).scale();
   FollowedFlock best, other;
