@@ -4,7 +4,7 @@
 // The image of a bird in flight, as a box around it or as the second moments of its silhouette, in
 // the mean over the phases of its wingbeat. In units of the wingspan a body is
 //   wing tips  (+-cos(f) s + sin(f) u) / 2,  f = A sin(phase),   nose and tail  +-(l / 2) g,
-// with wings s, heading g, up u. Their images are given, each (a_x - X a_z, a_y - Y a_z).
+// with wings s, heading g, up u. Their images are given (ImageOf).
 //   box         around the images of the four, W wide and H high, neither below a body's thickness
 //               of 0.1; its squared sides W^2, H^2 count as a, c
 //   silhouette  second moments (a b; b c) in units of those of stretched wings,
@@ -23,6 +23,14 @@
 #include "simulate/core/vec3.h"
 
 namespace flocklift {
+
+// Image of an axis of a body that is seen along the ray (X, Y, 1), times its depth,
+//   P a = (a_x - X a_z, a_y - Y a_z):
+// the derivative of the projection, so a stretch towards the image's edge is in it.
+template <typename T>
+Vec2<T> ImageOf(const Vec3<T>& a, const Vec2<T>& ray) {
+  return {a.x - ray.x * a.z, a.y - ray.y * a.z};
+}
 
 // The usual body is the simulator's: length half the wingspan (core/animal.h; a jackdaw has 33 of
 // 67 to 74 cm), the inner wing raised by 0.8 sin(phase) (render/body.h).

@@ -5,9 +5,7 @@
 // axes: wings s, trunk g (the heading), up u, in the proportion 1 : trunk : up, and its image has
 // the squared extent, summed over both image directions and in units of its mean over all views,
 //   Q = (|P s|^2 + trunk |P g|^2 + up |P u|^2) / (2/3 (1 + trunk + up)),
-//   P a = (a_x - X a_z, a_y - Y a_z)
-// (P is the derivative of the projection times z, so a stretch towards the image's edge is in it;
-// in weak perspective, as of pictures that are scaled and put in their places, X and Y count as 0).
+// P as in body_image.h; in weak perspective (body_fit.h) bodies are seen along the optical axis.
 //   e = log size - (log wingspan + bias + ratio - L + log sqrt(Q))
 // `bias` is the individual's, `ratio`, `trunk` and `up` are the flock's: how a wingspan relates to
 // a box or a blob is not known beforehand. Where gravity is known the animal leans into its turns,
@@ -47,7 +45,7 @@ struct SizeError {
   CameraMotion camera = {};         // at the knot
   const BodyImage* body = nullptr;  // for the correction, if any
   double body_share = 0;            // how much it counts, 0 to 1
-  double perspective = 1;           // 0: weak perspective
+  double perspective = 1;           // share of the ray that the body is seen along; 0: weak
 
   // c: control points k-1 .. k+1, each (X, Y, L); log_trunk and log_up are logs of proportions.
   template <typename T>
@@ -64,15 +62,12 @@ struct SizeError {
     using std::sqrt;
     const Vec3<T> w = VelocityOverDepth(q, camera);
     const T speed2 = Dot(w, w) + softening * softening;
-    const T x = perspective * q.x, y = perspective * q.y;
-    const auto image = [&x, &y](const Vec3<T>& a) {  // P a
-      return Vec2<T>{a.x - x * a.z, a.y - y * a.z};
-    };
-    const auto seen = [&image](const Vec3<T>& a) {
-      const Vec2<T> p = image(a);
+    const Vec2<T> ray{perspective * q.x, perspective * q.y};
+    const auto seen = [&ray](const Vec3<T>& a) {  // |P a|^2
+      const Vec2<T> p = ImageOf(a, ray);
       return p.x * p.x + p.y * p.y;
     };
-    const T whole = 2.0 + x * x + y * y;  // |P s|^2 + |P g|^2 + |P u|^2
+    const T whole = 2.0 + ray.x * ray.x + ray.y * ray.y;  // |P s|^2 + |P g|^2 + |P u|^2
     const T along = seen(w) / speed2;
     T across = 0.5 * (whole - along);
     T correction(0.0);
@@ -91,8 +86,9 @@ struct SizeError {
         const Vec3<T> g = (1.0 / sqrt(speed2)) * w;
         const Vec3<T> s = (1.0 / sqrt(side2)) * side;
         const T usual = extent(T(std::exp(kUsualLogTrunk)), T(std::exp(kUsualLogUp)));
-        correction =
-            body_share * (body->LogSize(image(g), image(s), image(Cross(s, g))) - 0.5 * log(usual));
+        correction = body_share *
+                     (body->LogSize(ImageOf(g, ray), ImageOf(s, ray), ImageOf(Cross(s, g), ray)) -
+                      0.5 * log(usual));
       }
     }
     error[0] = log_size - (log_wingspan + bias + ratio - q.l +

@@ -100,12 +100,12 @@ Vec2d EllipticityOf(const Eigen::Matrix2d& moments) {
   return {(moments(0, 0) - moments(1, 1)) / trace, 2 * moments(0, 1) / trace};
 }
 
-// Of a shape in the picture, seen in the reference axes.
-std::optional<Vec2d> EllipticityOf(const Shape& shape, const ReferenceAxes& axes, int frame,
-                                   const Vec2d& ray, const Eigen::Matrix2d& pixel_by_ray) {
-  const double angle = shape.angle_deg * std::numbers::pi / 180;
+// Of moments in the picture, `squares` along axes that are turned by `angle`, seen in the reference
+// axes.
+std::optional<Vec2d> EllipticityOf(const Eigen::Vector2d& squares, double angle,
+                                   const ReferenceAxes& axes, int frame, const Vec2d& ray,
+                                   const Eigen::Matrix2d& pixel_by_ray) {
   const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
-  const Eigen::Vector2d squares(shape.major * shape.major, shape.minor * shape.minor);
   Eigen::Matrix2d ref_by_pixel = pixel_by_ray.inverse();
   if (axes.turns()) {
     const auto turned = [&](const Vec2d& r) {
@@ -273,6 +273,7 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
   result.pixel_sd = std::max(EstimatePixelSd(axes, camera, tracks), options.min_pixel_sd);
   const std::optional<double> box_over_shape = MedianBoxOverShape(tracks);
   result.has_shapes = box_over_shape.has_value();
+  result.camera_turns = axes.turns();
   result.form = FormOfBoxes(tracks, camera);
   for (const Tracklet& tracklet : tracks.tracklets) {
     Segment segment{tracklet.id, {}};
@@ -304,10 +305,13 @@ Segments MakeSegments(const SegmentOptions& options, const Tracks& tracks, const
                 : box_px;
         if (size_px > 0) sighting.log_size = std::log(size_px / focal_px);
         if (size_px > 0 && d.shape) {
-          sighting.ellipticity = EllipticityOf(*d.shape, axes, d.frame, *ray, pixel_by_ray);
-        } else if (size_px > 0 && !box_over_shape && !axes.turns()) {
           sighting.ellipticity = EllipticityOf(
-              Eigen::Vector2d(d.box.width, d.box.height).cwiseAbs2().asDiagonal().toDenseMatrix());
+              Eigen::Vector2d(d.shape->major, d.shape->minor).cwiseAbs2(),
+              d.shape->angle_deg * std::numbers::pi / 180, axes, d.frame, *ray, pixel_by_ray);
+        } else if (size_px > 0 && !box_over_shape && !axes.turns()) {
+          sighting.ellipticity =
+              EllipticityOf(Eigen::Vector2d(d.box.width, d.box.height).cwiseAbs2(), 0, axes,
+                            d.frame, *ray, pixel_by_ray);
         }
       }
       segment.sightings.push_back(sighting);

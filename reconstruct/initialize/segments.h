@@ -27,8 +27,9 @@ struct Sighting {
   Vec2d ray;                       // (x/z, y/z)
   double ray_sd = 1;               // of either coordinate
   std::optional<double> log_size;  // log of the angular size; absent on interpolated rows
-  // ((a - c), 2 b) / (a + c) of the second moments (a b; b c) of a shape, reference axes; of a box,
-  // where the camera does not turn, a and c are its squared sides and b is 0. Absent with the size.
+  // ((a - c), 2 b) / (a + c) of the second moments (a b; b c) of a shape, reference axes, lens
+  // distortion taken out; of a box, where the camera does not turn, its squared sides count as
+  // moments. Absent with the size.
   std::optional<Vec2d> ellipticity;
 };
 
@@ -63,8 +64,9 @@ struct Segments {
   int unusable = 0;               // detections without a ray (beyond the fold of the distortion,
                                   // or far beside where the camera looks on average)
   bool has_shapes = false;        // sizes come from shapes
-  BoxForm form;                   // of the boxes, also where sizes come from shapes
-  double persistence = 1;         // of the velocity of rays (persistence.h)
+  bool camera_turns = false;
+  BoxForm form;            // of the boxes, also where sizes come from shapes
+  double persistence = 1;  // of the velocity of rays (persistence.h)
   // Places of a moving camera in every frame from the first on, reference axes [m]; empty: at rest.
   std::vector<Vec3d> camera_places;
   double fps = 0;  // frames per second of the places

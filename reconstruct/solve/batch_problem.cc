@@ -84,7 +84,7 @@ void ForEachKnotError(const BatchModel& model, const Bird& bird, const Eigen::Ve
                          .camera = camera,
                          .body = &model.body.image,
                          .body_share = model.body.share,
-                         .perspective = model.body.perspective};
+                         .perspective = model.body.Perspective()};
     const auto flocks = [&](int k) { return BorderScalar{shared[k], kOwnUnknowns + k}; };
     take(Term::kSize, 0,
          evaluate.template Of<1, 2>(

@@ -77,8 +77,10 @@ struct FlockBody {
   BodyImage image;
   double length_sd = 0.06, amplitude_sd = 0.25;  // of birds in general
   double lean = 0;                               // into turns, where it is seen
-  double share = 0;        // how probably sizes follow it (cost_functions/size.h)
-  double perspective = 1;  // 0: weak perspective (cost_functions/size.h)
+  double share = 0;  // how probably sizes follow it (cost_functions/size.h)
+  bool weak_perspective = false;
+
+  double Perspective() const { return weak_perspective ? 1 - share : 1; }  // cost_functions/size.h
 };
 
 // What is known of the flock's scalars from another part of the same sequence.

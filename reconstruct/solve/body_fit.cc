@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "reconstruct/cost_functions/path.h"
@@ -69,15 +71,15 @@ class FormFit {
 
   struct Found {
     Unknowns at, sd;
-    double perspective = 1;
-    double cost = 0;  // -2 log of the posterior, but for a constant
+    bool weak_perspective = false;
+    double cost = 0;  // -2 log of the posterior, but for a constant; infinite: nothing found
   };
-  Found From(double lean, double perspective) const {
+  Found From(double lean, bool weak_perspective) const {
     constexpr int kIterations = 6;
     constexpr double kHuber = 2;      // [sd]
     constexpr double kLongest = 1.5;  // step, in sds of the prior
     constexpr double kLeastSd = 0.01;
-    Found found{.at = mean_, .sd = sd_, .perspective = perspective};
+    Found found{.at = mean_, .sd = sd_, .weak_perspective = weak_perspective};
     found.at[kLeanAt] = lean;
     double error_sd = 0.2;
     const double dimensions = kind_ == BodyImage::Kind::kBox ? 1 : 2;
@@ -86,11 +88,11 @@ class FormFit {
       Eigen::Vector3d pull = matrix * (mean_ - found.at);
       const double prior = pull.dot(mean_ - found.at);
       double squares = 0;
-      const Guess now = GuessOf(found.at, perspective);
+      const Guess now = GuessOf(found.at, weak_perspective);
       std::array<Guess, 3> moved{now, now, now};
       for (int a = 0; a < 3; ++a) {
         moved[static_cast<std::size_t>(a)] =
-            GuessOf(found.at + kStep * Unknowns::Unit(a), perspective);
+            GuessOf(found.at + kStep * Unknowns::Unit(a), weak_perspective);
       }
       for (const Look& look : looks_) {
         const Eigen::Vector2d here = EllipticityOf(now, look);
@@ -115,6 +117,9 @@ class FormFit {
         found.at[a] += std::clamp(step[a], -kLongest * sd_[a], kLongest * sd_[a]);
       }
     }
+    if (!found.at.allFinite() || !found.sd.allFinite() || !std::isfinite(found.cost)) {
+      found.cost = std::numeric_limits<double>::infinity();
+    }
     return found;
   }
 
@@ -130,10 +135,11 @@ class FormFit {
 
   struct Guess {
     BodyImage body;
-    double lean = 0, perspective = 1;
+    double lean = 0;
+    bool weak_perspective = false;
   };
-  Guess GuessOf(const Unknowns& x, double perspective) const {
-    return {BodyImage(kind_, ShapeOf(x)), x[kLeanAt], perspective};
+  Guess GuessOf(const Unknowns& x, bool weak_perspective) const {
+    return {BodyImage(kind_, ShapeOf(x)), x[kLeanAt], weak_perspective};
   }
 
   Eigen::Vector2d EllipticityOf(const Guess& guess, const Look& look) const {
@@ -142,12 +148,9 @@ class FormFit {
     const double size = Norm(across);
     if (!(size > 0.15 * Norm(lift))) return look.seen;  // nearly along it: the side is anywhere
     const Vec3d side = (1 / size) * across;
-    const Vec2d ray{guess.perspective * look.ray.x, guess.perspective * look.ray.y};
-    const auto image = [&ray](const Vec3d& a) {
-      return Vec2d{a.x - ray.x * a.z, a.y - ray.y * a.z};
-    };
-    const Vec2d e =
-        guess.body.Ellipticity(image(look.heading), image(side), image(Cross(side, look.heading)));
+    const Vec2d ray = guess.weak_perspective ? Vec2d{} : look.ray;
+    const Vec2d e = guess.body.Ellipticity(ImageOf(look.heading, ray), ImageOf(side, ray),
+                                           ImageOf(Cross(side, look.heading), ray));
     return {e.x, kind_ == BodyImage::Kind::kBox ? look.seen[1] : e.y};
   }
 
@@ -157,34 +160,47 @@ class FormFit {
   Unknowns mean_, sd_;
 };
 
+// By what the cost of weak perspective is over the other's. Errors are in part those of the model,
+// alike in many looks: no more than some count.
+bool IsWeakPerspective(double cost_over_other, std::size_t looks) {
+  constexpr double kMost = 200, kBeforehand = 0.1;
+  const double share = std::min(1.0, kMost / static_cast<double>(looks));
+  return share * cost_over_other < 2 * std::log(kBeforehand / (1 - kBeforehand));
+}
+
 }  // namespace
 
-bool FitBody(bool has_shapes, const Uncertain& lean, const std::vector<Bird>& birds,
+bool FitBody(const Segments& segments, const Uncertain& lean, const std::vector<Bird>& birds,
              BatchModel* model) {
   // No bird is as simple as the model. The lean in the solver is held less tightly than it is seen:
   // curves are those of an earlier solution, and sizes that follow them closely hold its errors.
   constexpr double kLengthSd = 0.03, kAmplitudeSd = 0.1, kLeanSd = 0.1;
-  const double kWeakBeforehand = 2 * std::log(9.0);  // 1 in 10
   if (!model->up_in_cam) return false;
   const std::vector<Look> looks = LooksOf(*model, birds);
   if (looks.empty()) return false;
-  const auto kind = has_shapes ? BodyImage::Kind::kSilhouette : BodyImage::Kind::kBox;
+  const auto kind = segments.has_shapes ? BodyImage::Kind::kSilhouette : BodyImage::Kind::kBox;
   const FormFit fit(*model->up_in_cam, kind, looks, lean);
-  const auto from = [&fit](double perspective) {
-    const FormFit::Found level = fit.From(0, perspective), banked = fit.From(1, perspective);
+  const auto from = [&fit](bool weak_perspective) {
+    const FormFit::Found level = fit.From(0, weak_perspective);
+    const FormFit::Found banked = fit.From(1, weak_perspective);
     return level.cost <= banked.cost ? level : banked;  // there may be two modes
   };
-  const FormFit::Found usual = from(1), weak = from(0);
-  const FormFit::Found& best = weak.cost + kWeakBeforehand < usual.cost ? weak : usual;
-  if (!best.at.allFinite() || !best.sd.allFinite()) return false;
+  FormFit::Found best = from(false);
+  if (!segments.camera_turns) {
+    const FormFit::Found weak = from(true);
+    if (IsWeakPerspective(weak.cost - best.cost, looks.size())) best = weak;
+  }
+  if (std::isinf(best.cost)) return false;
   const FlockBody birds_in_general;
   FlockBody& body = model->body;
   body.image = BodyImage(kind, fit.ShapeOf(best.at));
   body.length_sd = birds_in_general.length_sd;
-  if (!has_shapes) body.length_sd = std::min(body.length_sd, std::hypot(best.sd[0], kLengthSd));
+  if (kind == BodyImage::Kind::kBox) {
+    body.length_sd = std::min(body.length_sd, std::hypot(best.sd[0], kLengthSd));
+  }
   body.amplitude_sd = std::min(birds_in_general.amplitude_sd, std::hypot(best.sd[1], kAmplitudeSd));
   body.lean = best.at[kLeanAt];
-  body.perspective = best.perspective;
+  body.weak_perspective = best.weak_perspective;
   model->lean = {best.at[kLeanAt], std::min(lean.sd, std::hypot(best.sd[kLeanAt], kLeanSd))};
   return true;
 }

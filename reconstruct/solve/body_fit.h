@@ -6,17 +6,18 @@
 // body, wide and narrow wingbeats make images that are stretched in other directions. A sighting
 // tells its ellipticity, body_image.h what a body's should be. Unknown are the lean, the amplitude
 // of the wingbeat and, of boxes, the length of the body, of shapes, the second moment of its trunk.
-// A camera shows every body along the ray to it. Pictures that are scaled by the distance and put
-// in their places, and boxes made from such bodies, show it along the optical axis wherever it is
-// (weak perspective): 1 in 10 beforehand, and what is more probable by far is taken. Gauss-Newton
-// with Huber's weights; errors are independent after half a second, and their sd is that of what is
-// left.
+// Gauss-Newton with Huber's weights; errors are independent after half a second, and their sd is
+// that of what is left.
+// A camera shows every body along the ray to it. Pictures that are scaled by depth and put in their
+// places, and boxes made from such, show it along the optical axis wherever it is (weak
+// perspective). Where the camera does not turn, that is fitted too; 1 in 10 beforehand.
 
 #ifndef FLOCKLIFT_RECONSTRUCT_SOLVE_BODY_FIT_H_
 #define FLOCKLIFT_RECONSTRUCT_SOLVE_BODY_FIT_H_
 
 #include <vector>
 
+#include "reconstruct/initialize/segments.h"
 #include "reconstruct/solve/batch_problem.h"
 
 namespace flocklift::internal {
@@ -24,7 +25,7 @@ namespace flocklift::internal {
 // Finds the model's body (but for its share) and the prior of its lean. `lean` is what was known
 // before. Returns false, and leaves the model, where there is nothing to be seen of it: no forms,
 // or gravity not known.
-bool FitBody(bool has_shapes, const Uncertain& lean, const std::vector<Bird>& birds,
+bool FitBody(const Segments& segments, const Uncertain& lean, const std::vector<Bird>& birds,
              BatchModel* model);
 
 }  // namespace flocklift::internal

@@ -64,7 +64,7 @@ double BoxRatio(const BodyShape& body, const Vec3d& up, const BatchModel& model,
                            .camera = model.camera.At(time),
                            .body = &model.body.image,
                            .body_share = model.body.share,
-                           .perspective = model.body.perspective};
+                           .perspective = model.body.Perspective()};
       double error = 0;
       size(c, 0.0, 0.0, shared[kLogTrunk], shared[kLogUp], shared[kLean], &error);
       const double log_size = q.l - error;
@@ -73,9 +73,10 @@ double BoxRatio(const BodyShape& body, const Vec3d& up, const BatchModel& model,
       const double speed = Norm(velocity);
       if (!(speed > 0)) continue;
       const Pose pose = PoseAt((1 / speed) * velocity, lift);
-      const double x = size.perspective * q.x, y = size.perspective * q.y;
-      const auto image = [x, y](const Vec3d& a) { return Vec2d{a.x - x * a.z, a.y - y * a.z}; };
-      sum += box.LogSize(image(pose.heading), image(pose.side), image(pose.up)) - log_size;
+      const Vec2d ray{size.perspective * q.x, size.perspective * q.y};
+      sum +=
+          box.LogSize(ImageOf(pose.heading, ray), ImageOf(pose.side, ray), ImageOf(pose.up, ray)) -
+          log_size;
       ++count;
     }
   }

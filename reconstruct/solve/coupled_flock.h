@@ -87,7 +87,7 @@ class CoupledFlock {
   Columns<Count> Solve(const Columns<Count>& b, const GradientStop& stop) const;
 
   // The sd of the noise by MacKay's fixed point (spread_estimator.h), at the solution; none where
-  // the system is singular.
+  // the system is singular or overflows.
   std::optional<double> EstimateNoise();
   // Posterior at the solution: sd of the log depth at every sighting, that of all depths' mean
   // taken out, and of the mean. Empty where the system is singular.

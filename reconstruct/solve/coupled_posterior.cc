@@ -95,7 +95,9 @@ std::optional<double> CoupledFlock::EstimateNoise() {
     }
   }
   const double seen = std::max(kLeastSeen, 1 - variances / (count * noise.sd * noise.sd));
-  return std::sqrt(squares / (count * seen));
+  const double sd = std::sqrt(squares / (count * seen));
+  if (!std::isfinite(sd)) return {};
+  return sd;
 }
 
 CoupledFlock::DepthSds CoupledFlock::Depths(int draws) {

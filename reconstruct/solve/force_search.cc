@@ -52,9 +52,9 @@ struct Annealing {
                           // through each other to where all else would have them
 };
 
-// The noise starts as large as the batch method's accelerations, falls until animals all but obey
-// the forces, and then is estimated from what they leave, from there on and as often as options
-// say.
+// The noise starts as large as the batch method's accelerations and falls until animals all but
+// obey the forces. Then it is estimated from what they leave, `rounds` times in each of two steps;
+// where that cannot be told it is the batch method's again.
 FollowedFlock Annealed(const DynamicsOptions& options, const BatchModel& model,
                        const Annealing& how, FollowedFlock flock) {
   constexpr double kTight = 0.1, kHarder = 3;
@@ -117,9 +117,10 @@ std::vector<double> Apart(const std::vector<Bird>& a, const std::vector<Bird>& b
   return apart;
 }
 
-// Also than a solution that is not a number.
+// What is not a number is worse than all others.
 bool IsBetter(const FollowedFlock& a, const FollowedFlock& b) {
-  return !(b.improbable <= a.improbable);
+  if (std::isnan(a.improbable)) return false;
+  return std::isnan(b.improbable) || a.improbable < b.improbable;
 }
 
 // From the batch solution, two at most. Without sizes that hardly knows who is in front; animals

@@ -192,13 +192,12 @@ SolvedWindow SolveWindow(const BatchOptions& options, const Knowledge& knowledge
       const Eigen::MatrixXd covariance = EstimateSpreads(first_guess, size_spread, &state, &solver);
       UpdateCurves(state.model, &state.birds);
       if (size_is_seen) {
-        const bool body_is_seen =
-            segments.form.sd > kLeastFormSd &&
-            FitBody(segments.has_shapes, usual_lean, state.birds, &state.model);
+        const bool body_is_seen = segments.form.sd > kLeastFormSd &&
+                                  FitBody(segments, usual_lean, state.birds, &state.model);
         const double stiff = UpdateSizeModel(options, wingspan_sd, segments.form, usual,
                                              body_is_seen, covariance, &state);
         if (knowledge.wingspan) report.stiff_boxes = stiff;
-        report.weak_perspective = model.body.perspective < 1;
+        report.weak_perspective = model.body.Perspective() < 0.5;
       }
       minimize(kSpreadIterations, roughly);
       if (!model.erratic && (round == kFirstSearch || round == kSecondSearch)) {

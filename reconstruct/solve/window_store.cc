@@ -65,7 +65,8 @@ std::string BytesOf(const SolvedWindow& solved) {
   const BodyShape& shape = body.image.shape();
   out.Put(body.image.kind());
   out.Put(std::array{shape.length, shape.trunk, shape.amplitude});
-  out.Put(std::array{body.length_sd, body.amplitude_sd, body.lean, body.share, body.perspective});
+  out.Put(std::array{body.length_sd, body.amplitude_sd, body.lean, body.share});
+  out.Put(body.weak_perspective);
   return out.bytes();
 }
 
@@ -118,10 +119,8 @@ SolvedWindow WindowFrom(std::string_view bytes) {
   in.Take(&kind);
   for (double* x : {&shape.length, &shape.trunk, &shape.amplitude}) in.Take(x);
   body.image = BodyImage(kind, shape);
-  for (double* x :
-       {&body.length_sd, &body.amplitude_sd, &body.lean, &body.share, &body.perspective}) {
-    in.Take(x);
-  }
+  for (double* x : {&body.length_sd, &body.amplitude_sd, &body.lean, &body.share}) in.Take(x);
+  in.Take(&body.weak_perspective);
   return solved;
 }
 

@@ -38,6 +38,7 @@ WindowPart PartOf(const Segments& segments, const Window& window, double fps, in
   part.first_frame = first_frame + skipped;
   part.segments.pixel_sd = segments.pixel_sd;
   part.segments.has_shapes = segments.has_shapes;
+  part.segments.camera_turns = segments.camera_turns;
   part.segments.form = segments.form;
   part.segments.persistence = segments.persistence;
   part.segments.fps = segments.fps;

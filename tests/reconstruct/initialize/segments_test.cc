@@ -87,6 +87,24 @@ TEST(Segments, FormsByHand) {
   EXPECT_NEAR(shape.y, 32.0 / 40 * std::sqrt(0.75), 1e-6);
 }
 
+// Towards its edge a wide lens presses pictures together along the radius; out of boxes that is
+// taken as out of shapes.
+TEST(Segments, FormsAreThoseWithoutDistortion) {
+  Camera camera = PinholeCamera(90, 1920, 1080);
+  Tracks tracks;
+  tracks.tracklets = {{1, {At(1, {1700, 540})}}};
+  const auto form = [&] {
+    return MakeSegments({}, tracks, camera, 30).segments[0].sightings[0].ellipticity->x;
+  };
+  const double without = form();
+  camera.intrinsics.distortion = {-0.1, 0, 0, 0, 0};
+  const double box = form();
+  EXPECT_GT(box, without + 0.02);
+  const Box& place = tracks.tracklets[0].detections[0].box;
+  tracks.tracklets[0].detections[0].shape = Shape{place.width, place.height, 0, 12};
+  EXPECT_NEAR(form(), box, 1e-9);
+}
+
 // A camera that is rolled by 20 degrees sees a shape turned by as much; in the reference axes it is
 // what the camera saw that was not.
 TEST(Segments, FormsTurnWithTheCamera) {

@@ -180,6 +180,36 @@ TEST(Batch, SeesHowFarAnimalsLeanByTheFormOfBoxes) {
   EXPECT_GT(found[1], found[0] + 0.4);
 }
 
+// Boxes of bodies, seen along the rays to them or, in weak perspective, along the optical axis.
+TEST(Batch, SaysWhetherBodiesAreInPerspective) {
+  Scene scene;
+  scene.flock.count = 12;
+  scene.flock.frames = 150;
+  const Trajectories truth = CirclingFlock(scene.flock);
+  const BodyImage body(BodyImage::Kind::kBox, {.length = 0.5, .amplitude = 0.7});
+  const Rigid3d cam_from_world = *scene.camera.cam_from_world;
+  for (const bool weak : {false, true}) {
+    Tracks seen = Observe(scene.flock, {}, truth, scene.camera);
+    ForEachView(scene.flock, truth, scene.camera, 1, &seen,
+                [&](Box* box, const Vec3d& g, const Vec3d& s, double depth, const auto& in_place) {
+                  const auto image = [&](const Vec3d& axis) {
+                    return weak ? ImageOf(cam_from_world.rotation * axis, Vec2d{}) : in_place(axis);
+                  };
+                  const Vec2d a = image(g), b = image(s), c = image(Cross(s, g));
+                  const double size = scene.camera.intrinsics.fx * scene.flock.wingspan / depth *
+                                      std::exp(body.LogSize(a, b, c));
+                  const double e = body.Ellipticity(a, b, c).x;
+                  *box = Box::Around(box->Center(), size * std::sqrt((1 + e) / 2),
+                                     size * std::sqrt((1 - e) / 2));
+                });
+    const BatchResult result =
+        SolveBatch({}, scene.knowledge, MakeSegments({}, seen, scene.camera, scene.flock.fps),
+                   scene.flock.fps, 1, {});
+    EXPECT_EQ(result.report.weak_perspective, weak);
+    EXPECT_LT(result.report.stiff_boxes, 0.1);
+  }
+}
+
 // The arrow solver finds the minimum that Ceres finds for the same residuals.
 TEST(Batch, ReachesTheMinimumOfCeres) {
   const Scene scene;

@@ -97,6 +97,20 @@ TEST(BoxOfBodyTest, ManyHeadingsMakeUpMatterLess) {
   EXPECT_LT(flock.Sd(), 0.8 * one);
 }
 
+// As far as sizes follow bodies at all.
+TEST(BoxOfBodyTest, InWeakPerspectiveBodiesLookTheSameBesideTheAxis) {
+  const BodyShape body{.length = 0.45, .amplitude = 0.6};
+  const auto ratio = [&body](double x, double share) {
+    Seen seen({0.1, 0.03, 0}, kUpwards, 4);
+    for (std::size_t k = 0; k < seen.birds[0].path.size(); k += 3) seen.birds[0].path[k] += x;
+    seen.model.body.weak_perspective = true;
+    seen.model.body.share = share;
+    return seen.Ratio(body);
+  };
+  EXPECT_NEAR(ratio(0.5, 1), ratio(0, 1), 1e-9);
+  EXPECT_GT(std::abs(ratio(0.5, 0) - ratio(0, 0)), 0.02);
+}
+
 TEST(BoxOfBodyTest, KnowsNothingOfTheScale) {
   const BodyShape body{.length = 0.45, .amplitude = 0.6};
   const Seen near({0.1, 0.03, -0.05}, kUpwards, 2), far({0.1, 0.03, -0.05}, kUpwards, 5);

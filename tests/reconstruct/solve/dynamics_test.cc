@@ -172,7 +172,7 @@ TEST(CoupledFlock, GivesUpWhatIsHopeless) {
             });
 }
 
-// Never less probable than what the batch solution gives.
+// As probable, but for little, as what the batch solution gives, or more so.
 TEST(ForceSearch, IsAtLeastAsProbableAsFromTheBatchSolutionAlone) {
   const FlockSpec spec{.count = 5, .frames = 90};
   WithWindow(spec, {}, [&](const internal::WindowToRefine& window) {

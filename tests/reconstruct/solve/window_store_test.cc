@@ -161,6 +161,23 @@ TEST_F(WindowStoreTest, AnotherProblemStartsAnew) {
   EXPECT_FALSE(WindowStore(path_, print).Find(3).has_value());  // it is gone
 }
 
+TEST_F(WindowStoreTest, KeepsWhatIsKnownOfBodies) {
+  SolvedWindow solved;
+  solved.belief.body = {.image = BodyImage(BodyImage::Kind::kSilhouette, {.trunk = 0.2}),
+                        .lean = 0.4,
+                        .share = 0.9,
+                        .weak_perspective = true};
+  solved.result.report.weak_perspective = true;
+  WindowStore(path_, 5).Keep(0, solved);
+  const auto found = WindowStore(path_, 5).Find(0);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->belief.body.image.kind(), BodyImage::Kind::kSilhouette);
+  EXPECT_EQ(found->belief.body.image.shape().trunk, 0.2);
+  EXPECT_EQ(found->belief.body.lean, 0.4);
+  EXPECT_NEAR(found->belief.body.Perspective(), 0.1, 1e-12);
+  EXPECT_TRUE(found->result.report.weak_perspective);
+}
+
 TEST_F(WindowStoreTest, AFolderThatCannotBeMadeIsAnError) {
   EXPECT_THROW(WindowStore("/proc/nowhere/windows", 1), std::exception);
 }
