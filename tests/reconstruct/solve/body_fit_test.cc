@@ -119,7 +119,6 @@ TEST(BodyFit, ATurningCameraShowsPerspective) {
 TEST(BodyFit, BodiesUnlikeTheModelStayInPerspective) {
   for (int seed = 1; seed <= 5; ++seed) {
     Wheeling flock;
-    flock.Show(BodyImage(Kind::kBox, {.amplitude = 0.6}), 1, 0);
     for (std::size_t i = 0; i < flock.birds.size(); ++i) {
       Rng rng(static_cast<std::uint64_t>(seed), i);
       Wheeling own;
