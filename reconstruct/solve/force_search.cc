@@ -160,6 +160,14 @@ FollowedFlock FollowForces(const DynamicsOptions& options, const BatchState& bat
   if (sweeps > 0) best.Settle(batch.model, AnnealIterations(best.birds.size()));
   for (int sweep = 0; sweep < sweeps && MoveDepths(batch.model, &best) > 0; ++sweep) {
   }
+  if (batch.model.use_size && best.birds.size() <= kFew) {
+    // Where the batch method was right, annealing may have left the better place.
+    FollowedFlock direct = start;
+    direct.forces = best.forces;
+    direct.noise = best.noise;
+    direct.Settle(batch.model, 6 * kIterations, best.improbable);
+    if (IsBetter(direct, best)) std::swap(direct, best);
+  }
   best.open = Apart(best.birds, again.birds);
   for (double& sd : best.open) sd *= kOfAnnealings;
   if (!other.birds.empty()) {

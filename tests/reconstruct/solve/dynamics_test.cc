@@ -210,24 +210,29 @@ double CostOfRest(const internal::BatchModel& model, const internal::FollowedFlo
   return flock.Cost();
 }
 
-// More probable than what the batch solution leads to with the same noise, where that has animals
-// in wrong places.
+// Puts animals 1 and 4 farther away and nearer.
+internal::BatchState WithAnimalsOff(double off, const internal::BatchState& batch) {
+  internal::BatchState start{batch.model, batch.birds, batch.shared};
+  for (const std::size_t i : {1, 4}) {
+    for (std::size_t k = 2; k < start.birds[i].path.size(); k += 3) {
+      start.birds[i].path[k] += i == 1 ? off : -off;
+    }
+  }
+  return start;
+}
+
+// As probable, but for little, as what the batch solution leads to with the same noise; more so
+// where that has animals in wrong places.
 TEST(ForceSearch, LeadsOutOfWrongPlaces) {
   const FlockSpec spec{.count = 8, .frames = 90};
   double gain = 0;
   WithWindow(spec, {}, [&](const internal::WindowToRefine& window) {
-    const internal::BatchState& batch = window.state;
-    for (const double off : {0.2, 0.4}) {
-      internal::BatchState start{batch.model, batch.birds, batch.shared};
-      for (const std::size_t i : {1, 4}) {
-        for (std::size_t k = 2; k < start.birds[i].path.size(); k += 3) {
-          start.birds[i].path[k] += i == 1 ? off : -off;
-        }
-      }
+    for (const double off : {0.0, 0.2, 0.4}) {
+      const internal::BatchState start = WithAnimalsOff(off, window.state);
       const auto found = internal::FollowForces({}, start);
       const double rest = CostOfRest(start.model, found, found.birds, found.shared);
       const double without = CostOfRest(start.model, found, start.birds, start.shared);
-      EXPECT_LT(rest, without);
+      EXPECT_LT(rest, without + (off > 0 ? 0 : 3));
       gain += without - rest;
     }
   });
@@ -239,7 +244,7 @@ TEST(ForceSearch, FewAndManyAreFoundWithoutSizesToo) {
   for (const FlockSpec& spec :
        {FlockSpec{.count = 6, .frames = 60}, FlockSpec{.count = 32, .frames = 20}}) {
     WithWindow(spec, {}, [&](const internal::WindowToRefine& window) {
-      internal::BatchState start{window.state.model, window.state.birds, window.state.shared};
+      internal::BatchState start = WithAnimalsOff(0.3, window.state);
       start.model.use_size = false;
       const auto found = internal::FollowForces({}, start);
       ASSERT_EQ(found.open.size(), start.birds.size());
@@ -247,8 +252,9 @@ TEST(ForceSearch, FewAndManyAreFoundWithoutSizesToo) {
         EXPECT_GT(sd, 0);
         EXPECT_LT(sd, 1);
       }
-      EXPECT_LT(CostOfRest(start.model, found, found.birds, found.shared),
-                CostOfRest(start.model, found, start.birds, start.shared) + 1);
+      const double rest = CostOfRest(start.model, found, found.birds, found.shared);
+      const double without = CostOfRest(start.model, found, start.birds, start.shared);
+      EXPECT_LT(rest, without);
     });
   }
 }
